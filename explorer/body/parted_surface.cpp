@@ -12,19 +12,20 @@ namespace {
 constexpr double rounding = 1e-9;  // mm
 }  // namespace
 
-PartedSurface::PartedSurface(SurfaceMesh mesh) : index_(std::move(mesh)) {
+PartedSurface::PartedSurface(SurfaceMesh mesh, const std::vector<bool>& closed) : index_(std::move(mesh)) {
   const auto& triangles = index_.surface().triangles;
   std::map<std::pair<int, int>, int> at;
   next_.resize(triangles.size(), {-1, -1, -1});
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) {
       const int a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+      at_node_[a] = t;
+      if (!closed.empty() && closed[a] && closed[b]) continue;
       if (const auto other = at.find({b, a}); other != at.end()) {
         next_[t][i] = other->second / 3;
         next_[other->second / 3][other->second % 3] = t;
       }
       at[{a, b}] = 3 * t + i;
-      at_node_[a] = t;
     }
 }
 

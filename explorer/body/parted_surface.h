@@ -13,7 +13,8 @@ namespace cleft {
 /// Neighbours share their nodes: there are none across a cut.
 class PartedSurface {
  public:
-  explicit PartedSurface(SurfaceMesh mesh);
+  /// `closed`, by node, if any: both walls of a cut have it, and an edge between two of them parts walls.
+  explicit PartedSurface(SurfaceMesh mesh, const std::vector<bool>& closed = {});
 
   /// The nearest place, within `reach`, whose normal is less than a right angle away from `normal`; its
   /// triangle is -1 if there is none.

@@ -27,6 +27,13 @@ constexpr double as_near = 0.1;     // mm: of two places, one reached from a lip
 constexpr double most_winding = 2;  // of a path from vertex to vertex, over their distance
 constexpr double least_of_end = 1.3 * std::numbers::pi;  // radians, of the skin around the end of a cut
 
+/// By node: whether no cut parts it.
+std::vector<bool> closed_nodes(const Body& body) {
+  std::vector<bool> closed(body.points.size(), true);
+  for (const BodyPair& pair : body.pairs) closed[pair.left] = closed[pair.right] = false;
+  return closed;
+}
+
 class Locator {
  public:
   Locator(const Body& body, const std::vector<const Incision*>& cuts, double scale)
@@ -34,7 +41,8 @@ class Locator {
         mesh_(cuts.front()->mesh()),
         scale_(scale),
         skin_({body.points, body.skin}),
-        walls_(walls_of(body)),
+        closed_(closed_nodes(body)),
+        walls_(walls_of(body), closed_),
         ends_(body, cuts, scale) {
     for (std::size_t k = 0; k < cuts.size(); ++k)
       lips_.emplace_back(body, static_cast<int>(k), *cuts[k], scale);
@@ -255,12 +263,15 @@ class Locator {
     }
   }
 
-  /// The walls below a lip are where its node is.
+  /// The walls below a lip are where its node is: not one that stays closed, which both walls have.
   void start_walls_below(int v) {
     const VertexPlace& place = places_.back();
-    const auto most = std::max_element(place.weights.begin(), place.weights.end());
-    const int t = walls_.triangle_at(place.nodes[most - place.weights.begin()]);
-    for (auto& walls : wall_) walls[v] = t;
+    double most = 0;
+    for (int i = 0; i < 3; ++i)
+      if (place.weights[i] > most && !closed_[place.nodes[i]]) {
+        most = place.weights[i];
+        for (auto& walls : wall_) walls[v] = walls_.triangle_at(place.nodes[i]);
+      }
   }
 
   /// A triangle of the body's walls at which a neighbour on the same wall is; -1: none is known.
@@ -310,7 +321,9 @@ class Locator {
   const std::vector<const Incision*>& cuts_;
   const CutMesh& mesh_;
   double scale_;
-  const PartedSurface skin_, walls_;
+  const PartedSurface skin_;
+  const std::vector<bool> closed_;  // by node of the body
+  const PartedSurface walls_;
   std::vector<BodyLips> lips_;  // by cut
   const EndShift ends_;
   std::vector<int> triangle_;             // by vertex: of the body's skin, at which it is; -1: none

@@ -30,6 +30,7 @@ using testing::path_on, testing::sheet;
 std::vector<ScalpelPath> paths_on(const testing::Bend& bend,
                                   const std::vector<std::vector<std::pair<double, double>>>& paths) {
   std::vector<ScalpelPath> all;
+  all.reserve(paths.size());
   for (const auto& places : paths) all.push_back(path_on(bend, places, 2.5));
   return all;
 }
@@ -128,6 +129,24 @@ TEST(SimulatedWounds, FollowTheBlade) {
   for (const BodyPair& pair : s.body.pairs)
     opening = std::max(opening, norm(last[pair.right] - last[pair.left]));
   EXPECT_NEAR(before, opening, 0.03 * opening);  // vertices between nodes
+}
+
+/// Each wall moves to the side of its own lip, next to the ends of a cut too, and its bottom to neither.
+TEST(SimulatedWounds, WallsMoveWithTheirLips) {
+  Simulated s(testing::flat, {along});
+  const SimulatedWounds wounds = s.wounds(s.request.skin);
+  const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+  const double most = s.largest();
+  int walls = 0;
+  for (int v = 0; v < static_cast<int>(now.size()); ++v) {
+    const VertexKind kind = s.mesh->vertex(v).kind;
+    const double to_right = dot(now[v] - s.mesh->position(v), s.cuts[0]->path().at(0).across);
+    if (kind == VertexKind::left_wall) EXPECT_LT(to_right, 0) << v;
+    if (kind == VertexKind::right_wall) EXPECT_GT(to_right, 0) << v;
+    if (kind == VertexKind::shared) EXPECT_LT(std::abs(to_right), 0.05 * most) << v;
+    walls += kind == VertexKind::left_wall || kind == VertexKind::right_wall;
+  }
+  EXPECT_GT(walls, 20);
 }
 
 /// The body's own skin is cut: its vertices away from the cut lie on nodes.
