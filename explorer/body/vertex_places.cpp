@@ -58,11 +58,11 @@ class Locator {
       for (int v = 0; v < count; ++v)
         if (!seen[v] && mesh_.vertex(v).kind != VertexKind::skin && order(v) == now)
           seen[v] = true, next.push(v);
-    std::vector<std::vector<int>> around(count);
+    std::vector<std::vector<int>> linked(count);
     for (const CutMesh::Triangle& t : mesh_.triangles())
       for (int i = 0; i < 3; ++i)
-        around[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]),
-            around[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
+        linked[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]),
+            linked[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
     triangle_.assign(count, -1);
     for (auto& walls : wall_) walls.assign(count, -1);
     // Only what is connected with the cuts over places of the body.
@@ -72,7 +72,7 @@ class Locator {
       const std::size_t had = places_.size();
       locate(v);
       if (places_.size() == had) continue;
-      for (const int w : around[v])
+      for (const int w : linked[v])
         if (!seen[w]) seen[w] = true, next.push(w);
     }
     fade();
