@@ -78,8 +78,7 @@ std::string warning_of_guard(const CutMesh& mesh, const Guard& guard, double gap
          " otherwise than in this simulation, by up to " + hundredths(scale * most->by) + " mm at " +
          place_text(scale * mesh.position(most->vertex)) +
          " mm, so that no triangle turns over: the skin is bent or thin there, or strains are too large to "
-         "be "
-         "small";
+         "be small";
 }
 
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {

@@ -53,11 +53,12 @@ class Locator {
     std::vector<bool> seen(count, false);
     std::queue<int> next;
     // Lips first, where cuts meet after the others, which tell them their side; then the walls below them.
-    const auto order = [this](int v) { return fan(v).skin.empty() ? 2 : start_of(v) < 0 ? 1 : 0; };
-    for (const int now : {0, 1, 2})
-      for (int v = 0; v < count; ++v)
-        if (!seen[v] && mesh_.vertex(v).kind != VertexKind::skin && order(v) == now)
-          seen[v] = true, next.push(v);
+    std::array<std::vector<int>, 3> of_cuts;
+    for (int v = 0; v < count; ++v)
+      if (mesh_.vertex(v).kind != VertexKind::skin)
+        of_cuts[fan(v).skin.empty() ? 2 : start_of(v) < 0 ? 1 : 0].push_back(v);
+    for (const std::vector<int>& some : of_cuts)
+      for (const int v : some) seen[v] = true, next.push(v);
     std::vector<std::vector<int>> linked(count);
     for (const CutMesh::Triangle& t : mesh_.triangles())
       for (int i = 0; i < 3; ++i)
@@ -246,7 +247,8 @@ class Locator {
       const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
       for (const int side : {0, 1}) add(v, sides[side], skin_, share, x, (side ? aside : -aside) * across);
     } else if (vertex.kind != VertexKind::skin && !skin.empty()) {
-      const int start = start_of(v) < 0 ? start_beside(skin) : start_of(v);
+      int start = start_of(v);
+      if (start < 0) start = start_beside(skin);
       const int t = add(v, skin, skin_, 1, x, to_middle_of_skin(v, skin, inward(v, skin)), start);
       if (t >= 0) start_walls_below(v);
     } else if (!skin.empty()) {
