@@ -9,6 +9,7 @@
 #include "explorer/body/surface_index.h"
 #include "explorer/body/tissue_layers.h"
 #include "explorer/incision/scalpel_path.h"
+#include "explorer/incision/tension_lines.h"
 #include "params/parameters/parameters.h"
 #include "solver/body/body.h"
 
@@ -21,9 +22,9 @@ struct BodyRequest {
   std::shared_ptr<const SurfaceIndex> bone = nullptr;  ///< what lies below; null: nothing
   Parameters parameters;  ///< mesh.element_size, grading and front; patch.height: thickness of tissue
   double reach = 40;      ///< of the body around the paths, over the skin
-  std::vector<TissueLayer> layers = {};  ///< of the tissue, from the skin down; none: all is one
-  std::vector<Vec3> tension;  ///< one direction of skin.prestress_u; none: from the first path's start to
-                              ///< its end
+  std::vector<TissueLayer> layers = {};   ///< of the tissue, from the skin down; none: all is one
+  std::vector<TensionLine> tension = {};  ///< along skin.prestress_u, at each place their mean; none: from
+                                          ///< the first path's start to its end
 };
 
 /// A path that does not lie on the skin: the cut goes below it, as far as there is skin.

@@ -6,6 +6,7 @@
 
 #include "explorer/body/own_columns.h"
 #include "explorer/incision/scalpel_path.h"
+#include "explorer/incision/tension_lines.h"
 #include "params/parameters/parameters.h"
 #include "params/region_materials.h"
 #include "solver/body/body.h"
@@ -20,7 +21,7 @@ struct OwnBodyRequest {
   std::optional<RegionFile> regions;  ///< none: all is one tissue, all triangles (or quads) are skin
   std::vector<ScalpelPath> paths;     ///< in the order in which they are cut
   Parameters parameters;              ///< mesh.front: how far inside its first closed nodes a cut ends
-  std::vector<Vec3> tension;          ///< as BodyRequest::tension
+  std::vector<TensionLine> tension;   ///< as BodyRequest::tension
 };
 
 struct OwnBodyReport {

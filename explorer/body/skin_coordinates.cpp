@@ -14,8 +14,6 @@ namespace cleft {
 
 namespace {
 
-constexpr double least_within = 0.02;  // of a direction of the tension: its part within the skin at a cut
-
 /// Skin beside the path may be reached around an end of it, as the other face of an organ's edge is.
 Side side_of(Side reached_from, const PathCoordinates& at, const ScalpelPath& path) {
   if (reached_from != Side::both || at.s < 0 || at.s > path.length()) return reached_from;
@@ -66,24 +64,30 @@ SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path,
 }
 
 std::vector<Vec3> directions_within(const SurfaceMesh& skin, const ScalpelPath& path,
-                                    const std::vector<Vec3>& asked, const std::vector<bool>& on_a_cut) {
-  Vec3 direction = path.at(path.length()).position - path.at(0).position;
-  if (!asked.empty())
-    direction = asked.front();
-  else if (norm(direction) < 1e-3 * path.length())
-    direction = path.at(0).along;
+                                    std::vector<TensionLine> lines, const std::vector<bool>& on_a_cut) {
+  const Vec3 chord = path.at(path.length()).position - path.at(0).position;
+  const Vec3 usual = norm(chord) < 1e-3 * path.length() ? path.at(0).along : chord;
+  if (lines.empty()) lines = {{{}, usual}};
+  const Vec3 forward = lines.size() == 1 ? lines.front().direction : usual;
   std::vector<Vec3> directions;
   for (const auto& t : skin.triangles) {
     const Vec3 a = skin.points[t[0]], b = skin.points[t[1]], c = skin.points[t[2]];
-    const Vec3 normal = normalized(cross(b - a, c - a));
-    Vec3 within = direction - dot(direction, normal) * normal;
-    if (norm(within) < least_within * norm(direction) &&
-        std::any_of(t.begin(), t.end(), [&](int p) { return on_a_cut[p]; }))
-      throw InputError("the direction of the tension, " + place_text(direction) +
-                       ", is perpendicular to the skin at " + place_text(a) +
-                       " mm, on a cut; give one within the skin (--direction)");
-    if (norm(within) < 1e-6 * norm(direction)) within = b - a;  // seen from its end: any direction is as good
-    directions.push_back(normalized(within));
+    const Vec3 first = normalized(b - a), normal = normalized(cross(b - a, c - a));
+    const auto twice = twice_angle_of(lines, {first, cross(normal, first)}, (1. / 3) * (a + b + c));
+    if (!twice && std::any_of(t.begin(), t.end(), [&](int p) { return on_a_cut[p]; }))
+      throw InputError(
+          lines.size() == 1
+              ? "the direction of the tension, " + place_text(forward) +
+                    ", is perpendicular to the skin at " + place_text(a) +
+                    " mm, on a cut; give one within the skin (--direction)"
+              : "the lines of tension are perpendicular to the skin at " + place_text(a) +
+                    " mm, on a cut, or cancel each other there; give a line within the skin there");
+    Vec3 within = first;  // seen from its end any direction is as good
+    if (twice && lines.size() == 1)
+      within = normalized(forward - dot(forward, normal) * normal);
+    else if (twice)
+      within = std::cos(*twice / 2) * first + std::sin(*twice / 2) * cross(normal, first);
+    directions.push_back(dot(within, forward) < 0 ? -within : within);
   }
   return directions;
 }

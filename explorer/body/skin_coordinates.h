@@ -7,6 +7,7 @@
 
 #include "explorer/incision/scalpel_path.h"
 #include "explorer/incision/surface_mesh.h"
+#include "explorer/incision/tension_lines.h"
 
 namespace cleft {
 
@@ -20,11 +21,10 @@ struct SkinCoordinates {
 /// bends. `on_cut`: the points along it, where v = 0.
 SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path, const std::set<int>& on_cut);
 
-/// A direction in space within each triangle of the skin, unit; `asked`: none, or one direction; none: from
-/// the path's start to its end. Throws InputError where it stands upright on a triangle that has one of the
-/// points of cuts.
+/// The mean of the lines in each triangle of the skin, unit; none: from the path's start to its end. Throws
+/// InputError where they stand upright on a triangle that has one of the points of cuts, or cancel there.
 std::vector<Vec3> directions_within(const SurfaceMesh& skin, const ScalpelPath& path,
-                                    const std::vector<Vec3>& asked, const std::vector<bool>& on_a_cut);
+                                    std::vector<TensionLine> lines, const std::vector<bool>& on_a_cut);
 
 /// The path between two of its arc lengths, or beyond its ends, where it goes on straight; its points are at
 /// most an eighth of `size` apart. Depths beyond the ends are those of the ends.

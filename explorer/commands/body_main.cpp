@@ -55,7 +55,7 @@ Body make_own(const Options& options, Json& figures) {
     throw InputError("--depth: the depth of a cut is that of its walls in " + options.mesh);
   if (options.body.given("--reach"))
     throw InputError("--reach: an own mesh goes as far as it goes; leave it out");
-  const BodyRequest settings = options.body.request();
+  const BodyRequest settings = options.body.request(options.scale);
   OwnBodyRequest request;
   FileCells file = read_cells(options.mesh, options.regions, options.release);
   request.mesh = {options.mesh, std::move(file.points), std::move(file.types), std::move(file.nodes),
@@ -76,7 +76,7 @@ Body make_below(const Options& options, Json& figures) {
   for (const auto& [given, name] :
        {std::pair{options.regions.has_value(), "--regions"}, {options.release.has_value(), "--release"}})
     if (given) throw InputError(std::string(name) + ": is of an own mesh of cells; --mesh is a surface");
-  BodyRequest request = options.body.request();
+  BodyRequest request = options.body.request(options.scale);
   MeshReport mesh;
   request.skin = read_mesh(options.mesh, &mesh);
   warn_of_size(request.skin, options.scale, nullptr, "cleft body");
@@ -98,7 +98,8 @@ Body make_below(const Options& options, Json& figures) {
 
 void make(const Options& options) {
   std::vector<std::string> inputs = options.paths;
-  inputs.insert(inputs.end(), {options.mesh, options.body.bone, options.body.case_file, options.materials});
+  inputs.insert(inputs.end(), {options.mesh, options.body.bone, options.body.case_file, options.body.lines,
+                               options.materials});
   std::erase(inputs, "");
   refuse_to_overwrite(options.out, inputs);
   const OutputFile probe(options.out);

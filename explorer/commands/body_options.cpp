@@ -38,21 +38,27 @@ void BodyOptions::add_to(CommandLine& app) {
                  "of a simulation: how far the body goes around the cuts, over the skin, mm")
       ->check(above(0))
       ->capture_default_str();
-  app.add_option(
-         "--direction", direction,
-         "X,Y,Z, of a simulation: direction of skin.prestress_u, in space [from the first path's start "
-         "to its end]")
-      ->delimiter(',')
-      ->expected(3);
+  auto* one =
+      app.add_option(
+             "--direction", direction,
+             "X,Y,Z, of a simulation: direction of skin.prestress_u, in space [from the first path's start "
+             "to its end]")
+          ->delimiter(',')
+          ->expected(3);
+  app.add_option("--direction-lines", lines,
+                 "CSV with columns x,y,z,dx,dy,dz, in the mesh's units, of a simulation: lines along "
+                 "skin.prestress_u, which has the mean of their directions between them, in place of "
+                 "--direction")
+      ->excludes(one);
 }
 
 std::string BodyOptions::first_given(bool but_bone) const {
-  for (const char* name : {"--bone", "--case", "--set", "--reach", "--direction"})
+  for (const char* name : {"--bone", "--case", "--set", "--reach", "--direction", "--direction-lines"})
     if (app_->count(name) > 0 && !(but_bone && name == std::string("--bone"))) return name;
   return "";
 }
 
-BodyRequest BodyOptions::request(const RecordedParameters& of_field) const {
+BodyRequest BodyOptions::request(double scale, const RecordedParameters& of_field) const {
   BodyRequest request;
   if (!case_file.empty()) {
     request.parameters = read_case(case_file, assignments).parameters;
@@ -65,7 +71,8 @@ BodyRequest BodyOptions::request(const RecordedParameters& of_field) const {
                      " times mesh.element_size = " + shortest(request.parameters.mesh.element_size) + " mm");
   request.reach = reach;
   if (!direction.empty()) check_direction("--direction", direction);
-  if (!direction.empty()) request.tension = {{direction[0], direction[1], direction[2]}};
+  if (!direction.empty()) request.tension = {{{}, {direction[0], direction[1], direction[2]}}};
+  if (!lines.empty()) request.tension = read_tension_lines(lines, scale);
   return request;
 }
 

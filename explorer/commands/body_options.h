@@ -12,7 +12,7 @@
 namespace cleft {
 
 struct BodyOptions {
-  std::string bone, case_file;
+  std::string bone, case_file, lines;
   std::vector<std::string> assignments;
   std::vector<double> direction;
   double reach = 40;  ///< mm
@@ -23,8 +23,9 @@ struct BodyOptions {
 
   bool given(const std::string& name) const { return app_->count(name) > 0; }
 
-  /// Without skin, paths and bone. `of_field`: parameters in place of the defaults.
-  BodyRequest request(const RecordedParameters& of_field = {}) const;
+  /// Without skin, paths and bone, of a mesh whose unit is `scale` mm. `of_field`: parameters in place of the
+  /// defaults.
+  BodyRequest request(double scale, const RecordedParameters& of_field = {}) const;
   /// As bone_below(); null if none was given.
   std::shared_ptr<const SurfaceIndex> read_bone(double scale, const Vec3& origin) const;
 

@@ -72,7 +72,8 @@ void check_files(const Options& options) {
   if (!is_volume(options.out))
     surface_format(options.out, MeshUse::write);  // reports a bad name before the work
   std::vector<std::string> inputs = options.paths;
-  inputs.insert(inputs.end(), {options.mesh, options.field, options.body.bone, options.body.case_file});
+  inputs.insert(inputs.end(), {options.mesh, options.field, options.body.bone, options.body.case_file,
+                               options.tension.lines, options.body.lines});
   std::erase(inputs, "");
   refuse_to_overwrite(options.out, inputs);
   const OutputFile probe(options.out);
@@ -138,13 +139,13 @@ void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& 
 
 void cut(const Options& options) {
   check_files(options);
+  const std::optional<SkinTension> tension = options.tension.read(options.scale);
   std::optional<CutFields> fields;
-  if (!options.field.empty())
-    fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
+  if (!options.field.empty()) fields = read_cut_fields(options.field, tension);
   Skin skin(options.mesh);
   const Field* shape = fields ? &fields->shape() : nullptr;
   std::optional<BodyRequest> request;
-  if (options.simulate) request = body_to_simulate(options.body, options.tension, fields);
+  if (options.simulate) request = body_to_simulate(options.body, tension, fields, options.scale);
   warn_of_size(skin.surface, options.scale, shape, "cleft cut");
   tell_note(skin.surface, options.mesh, "cleft cut");
   Json joined_ends;
@@ -157,10 +158,13 @@ void cut(const Options& options) {
   figures["cut_ms"] = 1e3 * cuts.seconds();
   figures["us_per_step"] = 1e6 * cuts.stepping_seconds() / figures["steps"].get<double>();
   for (const Incision* one : cuts.cuts()) figures["cuts"].push_back(figures_of(*one, options.scale));
+  if (request)
+    for (TensionLine& line : request->tension) line.place -= options.scale * cuts.origin();
   std::unique_ptr<ReplayedWounds> wounds;
   const std::shared_ptr<const SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin());
   if (fields) {
     if (bone) fields = fields->above_bone(distance_to(bone));
+    if (tension) fields = fields->in_tension(*options.tension.read(options.scale, cuts.origin()));
     if (request) fields = in_tension_of(*request, *fields, options.paths, cuts);
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.progress(), result.points, figures);

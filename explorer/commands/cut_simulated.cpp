@@ -39,8 +39,8 @@ std::string differences(const CutFields& fields, const Parameters& simulated) {
 
 }  // namespace
 
-BodyRequest body_to_simulate(const BodyOptions& options, const TensionOptions& tension,
-                             const std::optional<CutFields>& fields) {
+BodyRequest body_to_simulate(const BodyOptions& options, const std::optional<SkinTension>& tension,
+                             const std::optional<CutFields>& fields, double scale) {
   RecordedParameters of_field;
   if (fields) of_field = fields->shape().parameters;
   if (fields && fields->turning()) {
@@ -48,17 +48,16 @@ BodyRequest body_to_simulate(const BodyOptions& options, const TensionOptions& t
     of_field.set("skin.prestress_u", usual.uu), of_field.set("skin.prestress_v", usual.vv);
     of_field.set("skin.prestress_uv", usual.uv);
   }
-  BodyRequest request = options.request(of_field);
-  if (tension.direction.empty()) return request;
-  if (options.given("--direction"))
-    throw InputError("--direction: is of the same tension as --tension; give one of them");
+  BodyRequest request = options.request(scale, of_field);
+  if (!tension) return request;
+  for (const char* name : {"--direction", "--direction-lines"})
+    if (options.given(name))
+      throw InputError(std::string(name) + ": is of the same tension as --prestress; give one of them");
   for (const std::string& assignment : options.assignments)
     if (assignment.starts_with("skin.prestress_"))
       throw InputError("--set " + assignment + ": is of the same tension as --prestress; give one of them");
-  const auto [smaller, larger] = std::minmax(tension.prestresses.front(), tension.prestresses.back());
-  request.parameters.skin.prestress = {larger, smaller, 0};
-  check_direction("--tension", tension.direction);
-  request.tension = {{tension.direction[0], tension.direction[1], tension.direction[2]}};
+  request.parameters.skin.prestress = {tension->larger, tension->smaller, 0};
+  request.tension = lines_of(*tension);
   return request;
 }
 
@@ -76,7 +75,11 @@ CutFields in_tension_of(const BodyRequest& request, const CutFields& fields,
                      ": not with --field and --simulate; give the principal tensions with --tension and "
                      "--prestress");
   SkinTension tension = default_tension(cuts.cuts().front()->path(), false);
-  if (!request.tension.empty()) tension.direction = request.tension.front();
+  if (!request.tension.empty()) {
+    tension.direction = request.tension.front().direction;
+    if (request.tension.size() > 1)
+      tension.lines = std::make_shared<const std::vector<TensionLine>>(request.tension);
+  }
   tension.larger = stress.uu, tension.smaller = stress.vv;
   return fields.in_tension(tension);
 }

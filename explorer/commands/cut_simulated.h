@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "explorer/commands/body_options.h"
-#include "explorer/commands/tension_options.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/mesh_cuts.h"
 
@@ -14,8 +13,8 @@ namespace cleft {
 
 /// Without skin, paths and bone. The parameters are those of the options, else of the fields, else the
 /// defaults. Throws InputError if the options give two tensions.
-BodyRequest body_to_simulate(const BodyOptions& options, const TensionOptions& tension,
-                             const std::optional<CutFields>& fields);
+BodyRequest body_to_simulate(const BodyOptions& options, const std::optional<SkinTension>& tension,
+                             const std::optional<CutFields>& fields, double scale);
 
 /// The fields in the tension of the simulation, if they turn with it. Throws InputError if the paths have
 /// tensions of their own, or the tension is none that fields take.

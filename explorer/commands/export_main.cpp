@@ -252,8 +252,10 @@ std::unique_ptr<Session> session_of_mesh(const Options& o) {
   session->say("open " + quoted(o.input));
   session->say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
   if (!o.bone.empty()) session->say("bone " + quoted(o.bone));
-  if (!o.tension.direction.empty())
-    session->say("tension " + list(o.tension.direction) + " " + list(o.tension.prestresses));
+  if (o.tension.read(o.scale))
+    session->say("tension " +
+                 (o.tension.lines.empty() ? list(o.tension.direction) : quoted(o.tension.lines)) + " " +
+                 list(o.tension.prestresses));
   for (const std::string& path : o.paths) session->say("cut-file " + quoted(path));
   return session;
 }

@@ -160,7 +160,7 @@ void haptic(const Options& o) {
   check_clock(o, kind);
   check_files(o);
   std::optional<CutFields> fields;
-  if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
+  if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.read(o.scale));
   const auto bone = o.bone.empty() ? nullptr : bone_below(o.bone, o.scale, {});
   if (bone) fields = fields->above_bone(distance_to(bone));
   const Field* field = fields ? &fields->shape() : nullptr;

@@ -1,13 +1,18 @@
 // --tension and --prestress, alike in all commands that open cuts.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/wound/prestress_fields.h"
 
 namespace cleft {
 
@@ -21,6 +26,28 @@ inline void check_direction(const std::string& option, const std::vector<double>
 
 struct TensionOptions {
   std::vector<double> direction, prestresses;  ///< three numbers; two, MPa; empty: not given
+  std::string lines;                           ///< file in place of the direction; empty: not given
+
+  bool given() const { return !prestresses.empty(); }
+
+  /// Of a mesh whose unit is `scale` mm, in coordinates from `origin`, mesh units; none if it was not given.
+  std::optional<SkinTension> read(double scale, const Vec3& origin = {}) const {
+    if (!given()) return std::nullopt;
+    if (lines.empty() && direction.empty())
+      throw InputError("--prestress: of which direction? Give --tension or --tension-lines too");
+    SkinTension tension;
+    if (lines.empty()) {
+      check_direction("--tension", direction);
+      tension.direction = {direction[0], direction[1], direction[2]};
+    } else {
+      std::vector<TensionLine> list = read_tension_lines(lines, scale);
+      for (TensionLine& line : list) line.place -= scale * origin;
+      tension.direction = list.front().direction;
+      tension.lines = std::make_shared<const std::vector<TensionLine>>(std::move(list));
+    }
+    std::tie(tension.smaller, tension.larger) = std::minmax(prestresses[0], prestresses[1]);
+    return tension;
+  }
 
   void add_to(CommandLine& app) {
     auto* tension =
@@ -33,7 +60,12 @@ struct TensionOptions {
             ->expected(2)
             ->check(at_least(0));
     tension->needs(prestress);
-    prestress->needs(tension);
+    app.add_option(
+           "--tension-lines", lines,
+           "CSV with columns x,y,z,dx,dy,dz, in the mesh's units: lines of the skin's larger tension, "
+           "in place of --tension; between them it has the mean of their directions")
+        ->excludes(tension)
+        ->needs(prestress);
   }
 };
 

@@ -31,11 +31,7 @@ BodyRequest request_of(Session& session) {
   request.skin = *session.mesh();
   request.paths = session.cut_paths();
   request.parameters = parameters_of_shown(session);
-  if (const auto& tension = session.state().tension) {
-    if (tension->lines)
-      throw InputError("simulations take one direction of the tension, not lines (say: tension X,Y,Z L,S)");
-    request.tension = {tension->direction};
-  }
+  if (const auto& tension = session.state().tension) request.tension = lines_of(*tension);
   request.bone = session.opened().bone;
   return request;
 }
@@ -47,7 +43,7 @@ std::string key_of(const BodyRequest& request, const std::string& mesh) {
   const auto add = [&](const Vec3& x) {
     key += ";" + shortest(x.x) + "," + shortest(x.y) + "," + shortest(x.z);
   };
-  for (const Vec3& direction : request.tension) add(direction);
+  for (const auto& [place, direction] : request.tension) add(place), add(direction);
   for (const ScalpelPath& path : request.paths) {
     constexpr int places = 200;
     for (int i = 0; i <= places; ++i) {

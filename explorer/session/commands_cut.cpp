@@ -137,29 +137,13 @@ void device(Session& session, CommandWords& words) {
   session.services().device(name, file);
 }
 
-/// Columns x,y,z,dx,dy,dz, in the mesh's units.
-std::shared_ptr<const std::vector<TensionLine>> read_tension_lines(const std::string& file, double scale) {
-  const NumberTable table = read_csv(file);
-  std::vector<TensionLine> lines;
-  for (const char* name : {"x", "y", "z", "dx", "dy", "dz"})
-    if (table.column(name) < 0)
-      throw FileError(file, std::string("has no column ") + name + " (lines of tension: x,y,z,dx,dy,dz)");
-  for (const std::vector<double>& row : table.rows) {
-    const auto at = [&](const char* name) { return row[static_cast<std::size_t>(table.column(name))]; };
-    const Vec3 way{at("dx"), at("dy"), at("dz")};
-    if (!(norm(way) > 0)) throw FileError(file, "a line of tension has no direction: dx = dy = dz = 0");
-    lines.push_back({scale * Vec3{at("x"), at("y"), at("z")}, way});
-  }
-  if (lines.empty()) throw FileError(file, "has no line of tension");
-  return std::make_shared<const std::vector<TensionLine>>(std::move(lines));
-}
-
 void tension(Session& session, CommandWords& words) {
   const std::string first = words.text("a direction, a file of lines, or none");
   if (first == "none") return set_tension(session, std::nullopt);
   SkinTension tension;
   if (first.ends_with(".csv")) {
-    tension.lines = read_tension_lines(first, session.state().scale);
+    tension.lines =
+        std::make_shared<const std::vector<TensionLine>>(read_tension_lines(first, session.state().scale));
     tension.direction = tension.lines->front().direction;
   } else {
     CommandWords direction("tension", "X,Y,Z", {first});

@@ -87,15 +87,9 @@ Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const
   return in_prestress(cut, fields, prestress, std::move(volume), std::numeric_limits<double>::infinity());
 }
 
-CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,
-                          const std::vector<double>& prestresses) {
-  std::optional<SkinTension> tension;
-  if (!direction.empty())
-    tension = SkinTension{{direction[0], direction[1], direction[2]},
-                          std::max(prestresses[0], prestresses[1]),
-                          std::min(prestresses[0], prestresses[1])};
+CutFields read_cut_fields(const std::string& file, const std::optional<SkinTension>& tension) {
   if (format_of(file) != "cleft-study") {
-    if (!direction.empty())
+    if (tension)
       throw InputError(std::string("--tension needs ") + three_cases + "; " + file + " is one case");
     return CutFields(std::make_shared<const Field>(read_field(file)));
   }

@@ -67,10 +67,8 @@ class CutFields {
 Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
                        double scale);
 
-/// The fields of a field file, of a study.dffd of three cases with different prestress, or of a family.
-/// `direction` (three numbers) and `prestresses` (two, MPa, in either order) are the tension, if they are not
-/// empty. Throws InputError if a tension is given for one case's field.
-CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,
-                          const std::vector<double>& prestresses);
+/// The fields of a field file, of a study.dffd of three cases with different prestress, or of a family, in
+/// this tension. Throws InputError if a tension is given for one case's field.
+CutFields read_cut_fields(const std::string& file, const std::optional<SkinTension>& tension);
 
 }  // namespace cleft

@@ -13,9 +13,6 @@ namespace cleft {
 
 namespace {
 
-/// The sine of the angle between the skin's normal and a tension that stands upright on it: about one degree,
-/// within which rounding of the mesh decides its direction in the skin.
-constexpr double upright = 0.02;
 /// The part of a prestress that is no sum of the others, at least: less would make weights of a thousand, and
 /// errors of the fields as much larger.
 constexpr double independent_part = 1e-3;
@@ -51,32 +48,15 @@ Prestress PathPrestress::at(double s) const {
   return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
 }
 
+std::vector<TensionLine> lines_of(const SkinTension& tension) {
+  if (tension.lines && !tension.lines->empty()) return *tension.lines;
+  return {{{}, tension.direction}};
+}
+
 Prestress prestress_of(const RecordedParameters& p) {
   const Prestress& sigma = p->skin.prestress;
   return {p.value_or(sigma.uu, 0.), p.value_or(sigma.vv, 0.), p.value_or(sigma.uv, 0.)};
 }
-
-namespace {
-
-/// Twice the angle of the lines' mean in the skin: a line has no head, so that means are of twice its angle.
-/// Lines that stand upright on the skin count little. None where there is nothing left of them.
-std::optional<double> twice_angle_of(const std::vector<TensionLine>& lines,
-                                     const std::array<Vec3, 2>& directions, const Vec3& place) {
-  constexpr double near = 1;  // mm: nearer lines count alike
-  double cosine = 0, sine = 0, all = 0;
-  for (const TensionLine& line : lines) {
-    const Vec3 way = line.place - place;
-    const Vec3 d = normalized(line.direction);
-    const double along = dot(d, directions[0]), across = dot(d, directions[1]);
-    const double weight = 1 / (dot(way, way) + near * near);
-    cosine += weight * (along * along - across * across), sine += weight * 2 * along * across;
-    all += weight;
-  }
-  if (std::hypot(cosine, sine) < upright * upright * all) return std::nullopt;
-  return std::atan2(sine, cosine);
-}
-
-}  // namespace
 
 Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s,
                        const Vec3& place) {
@@ -85,9 +65,10 @@ Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension&
   const bool painted = tension.lines && !tension.lines->empty();
   const std::optional<double> of_lines =
       painted ? twice_angle_of(*tension.lines, directions, place) : std::nullopt;
-  if (painted ? !of_lines : std::hypot(along, across) < upright * norm(tension.direction))
-    throw InputError("the tension stands upright on the skin " + shortest(s) +
-                     " mm along the path; give its direction in the skin");
+  if (painted ? !of_lines : std::hypot(along, across) < upright_line * norm(tension.direction))
+    throw InputError((painted ? "the lines of tension are perpendicular to the skin, or cancel each other, "
+                              : "the tension stands upright on the skin ") +
+                     shortest(s) + " mm along the path; give its direction in the skin there");
   const double twice = of_lines.value_or(2 * std::atan2(across, along));
   return {mean + half * std::cos(twice), mean - half * std::cos(twice), half * std::sin(twice)};
 }

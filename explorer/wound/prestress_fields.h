@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "explorer/incision/tension_lines.h"
 #include "explorer/study/study.h"
 #include "explorer/wound/ipv.h"
 #include "explorer/wound/varying_field.h"
@@ -23,20 +24,18 @@ struct PathPrestress {
   Prestress at(double s) const;
 };
 
-/// The direction of the skin's larger tension at a place, both in the mesh's space; mm.
-struct TensionLine {
-  Vec3 place, direction;
-};
-
 /// Principal prestresses of the skin, MPa, and the direction of the larger in the mesh's space, which is
 /// projected to the skin.
 struct SkinTension {
   Vec3 direction;
   double larger = 0, smaller = 0;
-  /// Lines that have been painted or read; where there are some the direction at a place is the mean of
-  /// theirs, by the squares of their inverse distances, and `direction` is not used.
+  /// Lines that have been painted or read; where there are some the direction at a place is their mean
+  /// (twice_angle_of), and `direction` is not used.
   std::shared_ptr<const std::vector<TensionLine>> lines = nullptr;
 };
+
+/// The lines of a tension, of which there is one where it has one direction.
+std::vector<TensionLine> lines_of(const SkinTension& tension);
 
 /// A case's prestress, MPa; components that are not recorded are 0.
 Prestress prestress_of(const RecordedParameters& parameters);

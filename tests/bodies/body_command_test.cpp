@@ -189,6 +189,26 @@ TEST_F(BodyCommand, SimulationsInTheTensionThatIsGiven) {
   in.write("path.csv", "x,y,z,nx,ny,nz\n-8,0,0,0,0,1\n8,0,0,0,0,1\n");
   EXPECT_DOUBLE_EQ(gape({"--set", "cut.depth=3"}), usual);
   EXPECT_LT(gape({"--set", "cut.depth=1.5"}), 0.95 * usual);
+  // Lines of another direction than the first, of which most are far away, in the mesh's units.
+  const std::string lines = in.write("lines.csv",
+                                     "x,y,z,dx,dy,dz\n90,90,0,0,1,0\n90,90,0,0,1,0\n90,90,0,0,1,0\n90,90,0,0,"
+                                     "1,0\n0,0,0,2,0,0\n-8,0.5,0,-1,0,0\n8,0,0,1,0,0\n");
+  const double of_lines = gape({"--tension-lines", lines, "--prestress", "0.004,0.02"});
+  EXPECT_NEAR(of_lines, along, 0.02 * along);
+  EXPECT_DOUBLE_EQ(of_lines, gape({"--direction-lines", lines, "--set", "skin.prestress_u=0.02", "--set",
+                                   "skin.prestress_v=0.004"}));
+  // A mesh far from the origin is cut in coordinates of its own; so are its lines.
+  SurfaceMesh far = testing::sheet(testing::flat, 30, 30, 2);
+  for (Vec3& p : far.points) p += Vec3{1 << 20, 0, 0};
+  in.write("skin.obj", text_of(far));
+  in.write("path.csv", "x,y,z,nx,ny,nz,depth\n1048568,0,0,0,0,1,3\n1048584,0,0,0,0,1,3\n");
+  in.write("lines.csv",
+           "x,y,z,dx,dy,dz\n1048666,90,0,0,1,0\n1048666,90,0,0,1,0\n1048666,90,0,0,1,0\n1048666,90,0,0,1,"
+           "0\n1048576,0,0,2,0,0\n"
+           "1048568,0.5,0,-1,0,0\n1048584,0,0,1,0,0\n");
+  EXPECT_NEAR(gape({"--tension-lines", lines, "--prestress", "0.004,0.02"}), of_lines, 1e-6);
+  refused("cut", with(options_, {"--simulate", "--out", out / "a.obj", "--prestress", "0.03,0.01"}),
+          {"--prestress", "--tension or --tension-lines"});
   const std::vector<std::string> options = with(
       options_, {"--simulate", "--out", out / "a.obj", "--tension", "0,1,0", "--prestress", "0.03,0.01"});
   refused("cut", with(options, {"--direction", "1,0,0"}), {"--direction: is of the same tension"});

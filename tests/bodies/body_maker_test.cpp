@@ -285,15 +285,47 @@ TEST(MakeBody, CoordinatesBehindAnEdgeAreFar) {
 /// The tension lies in the triangles, along the given direction as it is seen there.
 TEST(MakeBody, TheTensionLiesInTheSkin) {
   BodyRequest r = request(testing::cylinder_along(40), {along});
-  r.tension = {{1, 1, 0.2}};
+  const Vec3 direction{1, 1, 0.2};
+  r.tension = {{{}, direction}};
   const Body body = make_body(r);
   for (std::size_t t = 0; t < body.skin.size(); ++t) {
     const auto& [a, b, c] = body.skin[t];
     const Vec3 normal = normalized(cross(body.points[b] - body.points[a], body.points[c] - body.points[a]));
     EXPECT_NEAR(dot(body.tension[t], normal), 0, 1e-12);
     EXPECT_NEAR(norm(body.tension[t]), 1, 1e-12);
-    EXPECT_NEAR(dot(cross(body.tension[t], r.tension[0]), normal), 0, 1e-12);
-    EXPECT_GT(dot(body.tension[t], r.tension[0]), 0);
+    EXPECT_NEAR(dot(cross(body.tension[t], direction), normal), 0, 1e-12);
+    EXPECT_GT(dot(body.tension[t], direction), 0);
+  }
+}
+
+/// Lines around the z axis, whose tangents are known at each place; a line has no head.
+TEST(MakeBody, TheTensionFollowsLines) {
+  BodyRequest r = request(testing::flat, {along});
+  for (int i = 0; i < 12; ++i)
+    for (const double radius : {6, 12, 18, 24, 30, 40, 50}) {
+      const double angle = std::numbers::pi * i / 6;
+      const Vec3 out{std::cos(angle), std::sin(angle), 0};
+      r.tension.push_back({radius * out, (i % 2 == 0 ? 3. : -1.) * cross({0, 0, 1}, out)});
+    }
+  const Body body = make_body(r);
+  for (std::size_t t = 0; t < body.skin.size(); ++t) {
+    const auto& [a, b, c] = body.skin[t];
+    const Vec3 middle = (1. / 3) * (body.points[a] + body.points[b] + body.points[c]);
+    if (norm(middle) < 10 || norm(middle) > 30) continue;
+    const double off = std::abs(dot(body.tension[t], normalized(middle)));
+    EXPECT_LT(std::asin(std::min(off, 1.)), 0.1) << middle.x << ' ' << middle.y;
+    EXPECT_NEAR(norm(body.tension[t]), 1, 1e-12);
+  }
+}
+
+TEST(MakeBody, LinesThatCancelOnACutAreRefused) {
+  BodyRequest r = request(testing::flat, {along});
+  r.tension = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 1, 0}}};
+  try {
+    make_body(r);
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("cancel each other there"), std::string::npos) << e.what();
   }
 }
 

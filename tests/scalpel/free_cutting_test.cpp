@@ -148,7 +148,7 @@ TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
 TEST(FreeCutting, AFamilyFollowsTheShapeOfThePath) {
   const SurfaceMesh mesh = ball_on_its_side(54);
   const testing::FamilyFile file({.with_twist = false, .length = 30, .slope = 30});
-  const CutFields fields = read_cut_fields(file.file(), {0, 1, 0}, {0.03, 0.01});
+  const CutFields fields = read_cut_fields(file.file(), SkinTension{{0, 1, 0}, 0.03, 0.01});
   ScalpelCutting cutting(mesh, {{}, {}, fields, 1, 0});
   const ScalpelPath path = over_the_ball(-20, 20, 0, 1.5);  // of a radius of 33 mm
   cut_along(cutting, path, 32);

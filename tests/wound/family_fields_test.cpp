@@ -64,7 +64,7 @@ constexpr double close = 3e-3;
 }  // namespace
 
 TEST(Family, AnArcOpensAsTheCaseOfItsCurvatureInTheTensionAtItsMiddle) {
-  const CutFields fields = read_cut_fields(family_file().file(), {0.6, 0.8, 0}, {0.03, 0.01});
+  const CutFields fields = read_cut_fields(family_file().file(), SkinTension{{0.6, 0.8, 0}, 0.03, 0.01});
   ASSERT_TRUE(fields.following_shape());
   // The larger tension is at an angle of atan(4 / 3) to x, along which the arc's middle lies.
   const double c2 = 0.36 - 0.64, s2 = 2 * 0.6 * 0.8;
@@ -89,7 +89,7 @@ TEST(Family, AnArcOpensAsTheCaseOfItsCurvatureInTheTensionAtItsMiddle) {
 /// a load that changes linearly along it opens as under its mean and half of the change at each place (Tada,
 /// Paris and Irwin, The stress analysis of cracks handbook).
 TEST(Family, DepthIsThatOfTheBladeAtEachPlaceAndOpensTheOthersToo) {
-  const CutFields fields = read_cut_fields(family_file().file(), {0, 1, 0}, {0.03, 0.01});
+  const CutFields fields = read_cut_fields(family_file().file(), SkinTension{{0, 1, 0}, 0.03, 0.01});
   const SurfaceMesh plane = grid(60, 60, -30, -30, 1);
   std::vector<ScalpelPath::Point> points;
   for (int i = 0; i <= 20; ++i) points.push_back({{i - 10., 0, 0}, {0, 0, 1}, 2 + 0.1 * i});
@@ -103,7 +103,7 @@ TEST(Family, DepthIsThatOfTheBladeAtEachPlaceAndOpensTheOthersToo) {
 }
 
 TEST(Family, DepthIsThatBelowTheSkinOfATiltedBlade) {
-  const CutFields fields = read_cut_fields(family_file().file(), {0, 1, 0}, {0.03, 0.01});
+  const CutFields fields = read_cut_fields(family_file().file(), SkinTension{{0, 1, 0}, 0.03, 0.01});
   const SurfaceMesh plane = grid(60, 60, -30, -30, 1);
   std::vector<ScalpelPath::Point> points;
   for (int i = 0; i <= 20; ++i) points.push_back({{i - 10., 0, 0}, {0, 0.6, 0.8}, 4});
@@ -178,7 +178,8 @@ const FamilyFile& file_of_rates_and_bones() {
 }
 
 TEST(Family, ASpiralOpensAsTheCaseOfItsCurvatureAndOfHowThatChanges) {
-  const CutFields fields = read_cut_fields(file_of_rates_and_bones().file(), {1, 0, 0}, {0.02, 0.02});
+  const CutFields fields =
+      read_cut_fields(file_of_rates_and_bones().file(), SkinTension{{1, 0, 0}, 0.02, 0.02});
   constexpr double length = 40, middle = 0.01, rate = 0.002;
   std::vector<Vec3> spiral;
   Vec3 at{-20, 0, 0};
@@ -224,7 +225,8 @@ TEST(Family, TheHeightOfTheTissueTellsWhetherItIsOnBone) {
 }
 
 TEST(Family, KnowsTheBoneBelowWhereThereIsAny) {
-  const CutFields fields = read_cut_fields(file_of_rates_and_bones().file(), {1, 0, 0}, {0.02, 0.02});
+  const CutFields fields =
+      read_cut_fields(file_of_rates_and_bones().file(), SkinTension{{1, 0, 0}, 0.02, 0.02});
   const Cut cut(arc(1e-6, 40));
   // From 5 mm below at one end to 10 at the other, and none beyond x = 15.
   const auto tissue = [](const Vec3& place, const Vec3& inward) {
@@ -269,14 +271,14 @@ TEST(Family, ALoadThatMovesNothingNeedsNoMode) {
 }
 
 TEST(Family, WithoutATensionItIsTheDefaultCasesAlongThePathAsAWhole) {
-  const CutFields fields = read_cut_fields(family_file().file(), {}, {});
+  const CutFields fields = read_cut_fields(family_file().file(), {});
   const Cut cut(arc(0.05, 20));
   const Wound wound = fields.wound(cut.incision, 1);
   EXPECT_LT(apart(wound.field, 10, made({0.05, 0, 3}, Parameters{}.skin.prestress)), close);
 }
 
 TEST(Family, WithoutATensionAFurtherCutIsInTheSkinOfTheFirst) {
-  const CutFields fields = read_cut_fields(family_file().file(), {}, {});
+  const CutFields fields = read_cut_fields(family_file().file(), {});
   const Cut first({{-10, 0, 0}, {10, 0, 0}}), second({{3, -10, 0}, {3, 10, 0}});
   const Prestress own = Parameters{}.skin.prestress;
   EXPECT_LT(apart(fields.wound(first.incision, 1).field, 10, made({}, own)), close);
@@ -285,7 +287,7 @@ TEST(Family, WithoutATensionAFurtherCutIsInTheSkinOfTheFirst) {
 
 /// tests/truth/bodies.md has the errors themselves.
 TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
-  const CutFields fields = read_cut_fields(family_file().file(), {0, 1, 0}, {0.03, 0.01});
+  const CutFields fields = read_cut_fields(family_file().file(), SkinTension{{0, 1, 0}, 0.03, 0.01});
   const auto error = [&](const std::vector<Vec3>& points, const CutFields& by) {
     const Cut cut(points);
     const Wound wound = by.wound(cut.incision, 1);
@@ -320,8 +322,9 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
 }
 
 TEST(Family, WhatItDoesNotFollowIsJudgedAsOfOneField) {
-  const CutFields knows_depths = read_cut_fields(family_file().file(), {0, 1, 0}, {0.02, 0.02}),
-                  knows_bone = read_cut_fields(file_of_rates_and_bones().file(), {0, 1, 0}, {0.02, 0.02});
+  const CutFields knows_depths = read_cut_fields(family_file().file(), SkinTension{{0, 1, 0}, 0.02, 0.02}),
+                  knows_bone =
+                      read_cut_fields(file_of_rates_and_bones().file(), SkinTension{{0, 1, 0}, 0.02, 0.02});
   const Cut deep(arc(1e-6, 20), 4);
   const Wound known = knows_depths.wound(deep.incision, 1), unknown = knows_bone.wound(deep.incision, 1);
   EXPECT_TRUE(known.followed.depth && known.followed.bend && known.followed.twist);
@@ -336,7 +339,7 @@ TEST(Family, WhatItDoesNotFollowIsJudgedAsOfOneField) {
 
 TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {
   const FamilyFile plain({.with_twist = false, .with_shear = false});
-  EXPECT_THROW(read_cut_fields(plain.file(), {}, {}), InputError);
+  EXPECT_THROW(read_cut_fields(plain.file(), {}), InputError);
   try {
     Family family(plain.file());
     FAIL();
