@@ -82,11 +82,13 @@ void DeviceControl::begin() {
   setup.fields = session_.cut_fields(session_.state().shown);
   const auto field = session_.field();
   if (field) setup.firmness = firmness_above_bone(*field, session_.distance_to_bone());
+  setup.opened = session_.simulated_opening();
   timer_.stop();
   scalpel_.reset();
   scalpel_ = std::make_unique<LiveScalpel>(*session_.mesh(), std::move(setup), *device_, forces(field));
   dent_ = field ? std::make_shared<const SurfaceDent>(*field) : std::make_shared<const SurfaceDent>();
   scene_.reset();
+  felt_mesh_ = session_.mesh(), begins_again_ = false;
   ticks_ = 0;
   height_ = hover;
   since_tick_.start(), since_rate_.start();
@@ -109,7 +111,11 @@ void DeviceControl::put_away() {
 void DeviceControl::follow(const Changes& changes) {
   if (!on() || own_) return;
   if (!session_.mesh()) return put_away();
-  if (changes.cuts || changes.study || changes.shown) begin();
+  if (!(changes.cuts || changes.study || changes.shown)) return;
+  if (state_.phase == Phase::cutting && session_.mesh() == felt_mesh_)
+    begins_again_ = true;  // once the cut has ended, which would be lost
+  else
+    begin();
 }
 
 void DeviceControl::tick() {
@@ -127,8 +133,10 @@ void DeviceControl::tick() {
     scene_ = std::make_shared<LiveScene>(moment, session_.scene()->surface(), dent_);
   scene_->dent(state_);
   widget_.show_live(scene_, &state_);
-  const auto ended = scalpel_->ended_cuts();
+  const bool begins = begins_again_ && state_.phase != Phase::cutting;
+  const auto ended = begins ? scalpel_->stop() : scalpel_->ended_cuts();
   say_cuts(ended);
+  if (begins) begin();
   watch_presence(!ended.empty());
   if (const std::string why = scalpel_->stopped(); !why.empty()) tell_(why);
 }

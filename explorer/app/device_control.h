@@ -55,7 +55,9 @@ class DeviceControl : public Panel {
   QElapsedTimer since_tick_, since_rate_;
   HapticState state_;
   std::uint64_t ticks_ = 0;
-  double rate_ = 0;  // Hz
+  double rate_ = 0;                         // Hz
+  const SurfaceMesh* felt_mesh_ = nullptr;  // of the session, before its cuts
+  bool begins_again_ = false;               // as the session has changed while the blade cuts
   bool own_ = false, present_ = true;
   // The position of the mouse, and the height of its blade.
   std::optional<WoundView::Place> place_;

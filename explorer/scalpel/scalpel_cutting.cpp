@@ -45,9 +45,10 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
   wounds_.follow(std::min(made_, wounds_.size()));
   displacements_.resize(mesh_.vertices().size());
   wounds_.relieve();
+  if (setup_.opened) take_simulation();
   SurfaceMesh felt = mesh_.surface();
   for (std::size_t v = 0; v < felt.points.size(); ++v) {
-    displacements_[v] = wounds_.displacement(static_cast<int>(v));
+    displacements_[v] = displacement(static_cast<int>(v));
     felt.points[v] = setup_.scale * felt.points[v] + displacements_[v];
   }
   ContactSurfaceOptions options;
@@ -70,6 +71,14 @@ void ScalpelCutting::add_cut(const ScalpelPath& path, const IncisionOptions& opt
                       : setup_.fields->wound(*cut, setup_.scale),
                 entering);
   cuts_.push_back(std::move(cut));
+}
+
+void ScalpelCutting::take_simulation() {
+  std::vector<const Incision*> made;
+  for (std::size_t k = 0; k < made_; ++k) made.push_back(cuts_[k].get());
+  std::vector<Vec3> beyond = setup_.opened(made);
+  for (std::size_t v = 0; v < beyond.size(); ++v) beyond[v] -= wounds_.displacement(static_cast<int>(v));
+  beyond_fields_ = CarriedVectors(mesh_, std::move(beyond));
 }
 
 /// As ContactSurface::Moved has it.
@@ -239,6 +248,7 @@ void ScalpelCutting::cut(const Change& change) {
 
 void ScalpelCutting::collect_changes() {
   displacements_.resize(mesh_.vertices().size());
+  for (const int v : beyond_fields_.follow(mesh_)) displacements_[v] = beyond_fields_.at(v);
   changed_.clear(), vertices_.clear(), moved_.clear();
   for (const int t : mesh_.changed()) {
     if (static_cast<std::size_t>(t) >= mesh_.triangles().size()) {
@@ -278,7 +288,7 @@ void ScalpelCutting::open() {
     is_pending_[v] = false;
     if (static_cast<std::size_t>(v) >= mesh_.vertices().size()) continue;
     Vec3& d = displacements_[v];
-    d = wounds_.displacement(v);
+    d = displacement(v);
     moved_.push_back({v, setup_.scale * mesh_.position(v) + d});
   }
   figures_.waiting = pending_.size();
@@ -322,8 +332,7 @@ void ScalpelCutting::tell(const std::vector<int>& vertices) {
   is_pending_.resize(std::max(is_pending_.size(), displacements_.size()));
   for (const int v : vertices) {
     const std::size_t i = v;
-    if (is_pending_[i] ||
-        squared_norm(wounds_.displacement(v) - displacements_[i]) <= least_motion * least_motion)
+    if (is_pending_[i] || squared_norm(displacement(v) - displacements_[i]) <= least_motion * least_motion)
       continue;
     is_pending_[i] = true;
     pending_.push_back(v);

@@ -13,6 +13,7 @@
 
 #include "explorer/incision/incision.h"
 #include "explorer/incision/places_before.h"
+#include "explorer/scalpel/carried_vectors.h"
 #include "explorer/scalpel/guard_finder.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/live_wounds.h"
@@ -46,6 +47,9 @@ class ScalpelCutting {
     bool wait_for_guard = true;
     /// Of a place of the skin at rest, mm: its stiffness over that of the force's parameters; null: 1.
     std::function<double(const Vec3& place)> firmness = {};
+    /// The displacements of all vertices, mm, with the existing cuts, complete, as a simulation has them, in
+    /// place of the fields'; later cuts open in addition. Null: the fields' own.
+    std::function<std::vector<Vec3>(const std::vector<const Incision*>& made)> opened = {};
   };
   /// Throws InputError if a path does not meet the mesh.
   ScalpelCutting(const SurfaceMesh& mesh, Setup setup);
@@ -85,6 +89,8 @@ class ScalpelCutting {
   static constexpr std::size_t most_moved = 4000;
 
   void add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering);
+  void take_simulation();
+  Vec3 displacement(int vertex) const { return wounds_.displacement(vertex) + beyond_fields_.at(vertex); }
   float firmness_at(int vertex) const;
   double reached(const HapticState& scalpel) const;
   std::optional<ScalpelPath::Point> contact(const HapticState& scalpel);
@@ -109,8 +115,9 @@ class ScalpelCutting {
   std::vector<PointColor> own_colors_;  // of the mesh before
   std::optional<PlacesBefore> places_;  // none without colours
   std::vector<std::unique_ptr<Incision>> cuts_;
-  LiveWounds wounds_;     // of all cuts; none without a field
-  std::size_t made_ = 0;  // existing cuts
+  LiveWounds wounds_;             // of all cuts; none without a field
+  std::size_t made_ = 0;          // existing cuts
+  CarriedVectors beyond_fields_;  // mm: by what their simulation differs from the fields
   std::unique_ptr<ContactSurface> surface_;
   std::optional<ContactReader> reader_;
   bool cutting_ = false;

@@ -80,7 +80,8 @@ void follow_cuts(Session& session) {
   BodyRequest request = request_of(session);
   const std::string key = key_of(request, session.state().mesh + ";" + session.state().bone);
   if (key == simulated.of) return;
-  simulated = {key, std::make_shared<BodyRun>(std::move(request)), nullptr, "simulating; this is the replay"};
+  simulated = {key, std::make_shared<BodyRun>(std::move(request)), nullptr, nullptr,
+               "simulating; this is the replay"};
   session.opened().drawn.scenes.erase(session.state().shown);
   if (session.prepares_beside()) return;
   simulated.run->wait([&] { session.progress("simulating the cuts: " + simulated.run->step(), 0.5); });
@@ -99,6 +100,7 @@ void finish_simulation(Session& session) {
     std::vector<const Incision*> cuts;
     for (const auto& one : cut->cuts()) cuts.push_back(one.get());
     simulated.wounds = std::make_shared<const SimulatedWounds>(cuts, 1, result.body, *result.series);
+    simulated.ended = run;
     session.opened().drawn.scenes.erase(session.state().shown);
     simulated.note = "simulated, " + std::to_string(result.report.nodes) + " nodes";
     std::vector<Vec3> moved(cuts.front()->mesh().vertices().size());
@@ -114,7 +116,7 @@ void finish_simulation(Session& session) {
       if (const auto off = scene->replay_off())
         simulated.note += "; the opening of the replay was off by " + percent(off->relative_opening());
   } catch (const std::runtime_error& e) {  // of input, too: the replay remains
-    simulated.wounds = nullptr;
+    simulated.wounds = nullptr, simulated.ended = nullptr;
     simulated.note = std::string("not simulated: ") + e.what();
     session.answer(simulated.note);
   }

@@ -51,7 +51,8 @@ struct DetailSeen {
 struct Simulated {
   std::string of;                                 ///< of which cuts and parameters; empty: of none
   std::shared_ptr<BodyRun> run;                   ///< while it runs
-  std::shared_ptr<const SimulatedWounds> wounds;  ///< once it has ended well
+  std::shared_ptr<BodyRun> ended;                 ///< once it has ended well
+  std::shared_ptr<const SimulatedWounds> wounds;  ///< likewise, in the mesh that is shown
   std::string note;                               ///< what a view says of it
 };
 

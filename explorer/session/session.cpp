@@ -114,6 +114,20 @@ bool Session::take_prepared() {
   return false;
 }
 
+Session::SimulatedOpening Session::simulated_opening() const {
+  const std::shared_ptr<BodyRun> run = opened_.simulated.ended;
+  if (!run) return nullptr;
+  return [run](const std::vector<const Incision*>& cuts) {
+    const BodySimulation& simulation = run->result();
+    const SimulatedWounds wounds(cuts, 1, simulation.body, *simulation.series);
+    const auto& vertices = cuts.front()->mesh().vertices();
+    std::vector<Vec3> moved(vertices.size());
+    wounds.positions(wounds.duration(), moved);
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] -= vertices[v].position;
+    return moved;
+  };
+}
+
 bool Session::take_simulated() {
   if (!simulating() || busy_ || !opened_.simulated.run->ready()) return simulating();
   changes_ = {};

@@ -126,6 +126,10 @@ class Session {
   const std::string& simulation_note() const { return opened_.simulated.note; }  ///< empty: none is asked for
   /// Shows the simulated wounds once they are ready; whether there is still something to wait for.
   bool take_simulated();
+  /// The displacements, mm, of all vertices of a mesh that was cut along cut_paths(), as the simulation of
+  /// these cuts has them; null while there is none.
+  using SimulatedOpening = std::function<std::vector<Vec3>(const std::vector<const Incision*>& cuts)>;
+  SimulatedOpening simulated_opening() const;
 
   // The simulations and figures of cases.
   std::string why_no_raw(int i) const;           ///< empty if case i's simulation can be read

@@ -37,14 +37,14 @@ class DeviceTest : public WindowTest {
     for (int tries = 0; tries < 1000 && !condition(); ++tries) settle(20);
     return condition();
   }
-  /// In the picture, at half its height.
-  QPointF at(double x) { return {window_.scene().width() * x, window_.scene().height() * 0.5}; }
+  /// In the picture, in parts of its width and height.
+  QPointF at(double x, double y = 0.5) { return {window_.scene().width() * x, window_.scene().height() * y}; }
   /// Presses until the blade cuts, and goes on across a fifth of the picture.
-  void cut_by_mouse() {
-    mouse(window_.scene(), QEvent::MouseButtonPress, at(0.4));
+  void cut_by_mouse(double y = 0.5) {
+    mouse(window_.scene(), QEvent::MouseButtonPress, at(0.4, y));
     ASSERT_TRUE(soon([&] { return window_.device().state().phase == Phase::cutting; }));
     for (double x = 0.4; x < 0.6; x += 0.01) {
-      mouse(window_.scene(), QEvent::MouseMove, at(x));
+      mouse(window_.scene(), QEvent::MouseMove, at(x, y));
       settle(40);
     }
   }
@@ -151,6 +151,30 @@ TEST_F(DeviceTest, ACutUnderWayIsKeptWhenTheDeviceIsPutAway) {
   cut_by_mouse();
   tell("device off");
   EXPECT_TRUE(soon([&] { return now().cuts.size() == 1; })) << window_.message().toStdString();
+}
+
+TEST_F(DeviceTest, SimulatedWoundsAreFeltAndSeenAndNoCutUnderWayIsLost) {
+  tell("open " + study());
+  tell("cut -8,-5.3,0,0,0,1 0,-5.3,0,0,0,1 8,-5.3,0,0,0,1 depth 2");
+  tell("time 100");
+  tell("simulate on");
+  ASSERT_TRUE(soon([&] { return !real_.simulating(); }));
+  ASSERT_TRUE(real_.simulation_note().starts_with("simulated, ")) << real_.simulation_note();
+  settle(50);
+  const std::vector<Vec3> seen = picture().points();
+  tell("device mouse");
+  settle(100);
+  const std::vector<Vec3> felt = picture().points();
+  ASSERT_EQ(felt.size(), seen.size());
+  double apart = 0;
+  for (std::size_t v = 0; v < felt.size(); ++v) apart = std::max(apart, norm(felt[v] - seen[v]));
+  EXPECT_LT(apart, 1e-3) << "mm; the replay is off by 62 %";
+  cut_by_mouse(0.3);  // beside the first cut
+  tell("simulate off");
+  tell("time 3");
+  EXPECT_EQ(window_.device().state().phase, Phase::cutting) << "the cut goes on";
+  mouse(window_.scene(), QEvent::MouseButtonRelease, at(0.6, 0.3));
+  EXPECT_TRUE(soon([&] { return now().cuts.size() == 2; })) << window_.message().toStdString();
 }
 
 TEST_F(DeviceTest, WhatIsMissingIsTold) {

@@ -179,6 +179,44 @@ Field taut_field() {
                              {{"skin.prestress_v", 0.03}});
 }
 
+/// Displacements that are linear in the place are those of all vertices, also of those that a later cut adds.
+TEST(ScalpelCutting, CutsThatAreMadeMoveAsTheirSimulationHasThem) {
+  const SurfaceMesh mesh = testing::grid(40, 40, -30, -30, 1.5);
+  const auto simulated = [](const Vec3& p) {
+    return Vec3{0.02 * p.x + 0.01 * p.y, 0.5 - 0.03 * p.y, 0.01 * p.x};
+  };
+  const auto open = [&](const std::vector<const Incision*>& made) {
+    EXPECT_EQ(made.size(), 1u);
+    std::vector<Vec3> moved;
+    for (const auto& vertex : made.front()->mesh().vertices()) moved.push_back(simulated(vertex.position));
+    return moved;
+  };
+  for (const bool fields : {false, true}) {
+    ScalpelCutting::Setup setup;
+    setup.made = {testing::path_through({{-15, -4, 0}, {15, -4, 0}}, testing::up, 2)};
+    if (fields) setup.fields = CutFields(std::make_shared<const Field>(taut_field()));
+    setup.depth = 2, setup.opened = open;
+    ScalpelCutting cutting(mesh, setup);
+    const auto off = [&](int v) {
+      const Vec3 rest = cutting.mesh().position(v);
+      return norm(cutting.position(v) - rest - simulated(rest));
+    };
+    const int before = static_cast<int>(cutting.mesh().vertices().size());
+    for (int v = 0; v < before; ++v) ASSERT_LT(off(v), 1e-9) << v;
+    for (int k = 0; k <= 20; ++k) cutting.cut_at({{-9 + 0.9 * k, 6, 0}, {0, 0, 1}, 2});
+    cutting.end_cut();
+    cutting.settle();
+    const int after = static_cast<int>(cutting.mesh().vertices().size());
+    ASSERT_GT(after, before + 40);
+    double farthest = 0;
+    for (int v = 0; v < after; ++v) farthest = std::max(farthest, off(v));
+    if (fields)
+      EXPECT_GT(farthest, 0.3) << "the new cut opens in addition";
+    else
+      EXPECT_LT(farthest, 0.05) << "a third of what edges of 1.5 mm change by";
+  }
+}
+
 TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
   const auto field = std::make_shared<const Field>(taut_field());
   const SurfaceMesh mesh = testing::grid(40, 40, -30, -30, 1.5);
