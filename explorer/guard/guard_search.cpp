@@ -46,15 +46,35 @@ bool GuardSearch::find() {
   check_all();
   if (field_is_to_blame()) return false;
   find_delicate();
+  find_means();
+  only_lasting_ = true;
+  std::erase_if(offending_, [this](int one) { return !offends(one); });
+  if (!offending_.empty()) find_lasting_means();
+  reduce();
+  return true;
+}
+
+void GuardSearch::find_means() {
   spread_means();
   for (int round = 0; round < join_rounds && join(); ++round) {
     move_joined();
     spread_means();
   }
-  only_lasting_ = true;
-  std::erase_if(offending_, [this](int one) { return !offends(one); });
-  reduce();
-  return true;
+}
+
+/// What moves as means for a moment's sake, as next to an end while the blade passes it, may tear triangles
+/// for good, for which wounds would be held back.
+void GuardSearch::find_lasting_means() {
+  const std::vector<int> offended = offending_;
+  const auto means = mean_, ties = tie_;
+  const std::vector<int> leaders = leader_;
+  leader_.assign(leader_.size(), -1);
+  offending_.clear();
+  move_joined();
+  find_means();
+  if (offending_.size() < offended.size()) return;
+  mean_ = means, tie_ = ties, leader_ = leaders, offending_ = offended;
+  renew(all_numbers());
 }
 
 bool GuardSearch::is_excused() const {

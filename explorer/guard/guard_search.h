@@ -138,6 +138,8 @@ class GuardSearch {
   bool join();
   void move_joined();
   std::vector<Part> mean_of_ring(int number) const;
+  void find_means();
+  void find_lasting_means();
   void spread_means();
   void move_as_means(const std::vector<int>& group);
   bool tie(int triangle, std::vector<int>& group);

@@ -31,7 +31,7 @@ struct Neighbourhood {
       0;  ///< error that the field states of its opening, over that opening: of a fit or between cases
   bool between = false;  ///< whether the field was interpolated
   double turned = 0;     ///< radians: its direction against that of the first cut, which the tension has
-  double held_back = 0;  ///< of its lips or other vertices, by bends or the guard, over its largest opening
+  double held_back = 0;  ///< of its lips, by bends or the guard, over its largest opening
 };
 
 /// Sums the squares of what is known to make replays differ from simulations, each by a law whose factor is

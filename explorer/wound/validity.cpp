@@ -20,6 +20,7 @@ constexpr double greatest_expected = 0.1;
 /// whichever way it goes.
 constexpr double greatest_difference = 0.05;
 constexpr int path_samples = 128, opening_samples = 16;  ///< of bends and tilts, and of the widest opening
+constexpr double before_ends = 1;                        // mm, of a cut
 constexpr double least_junction_sine = 0.87;             // branches were compared at a right angle
 
 double smallest_radius(const ScalpelPath& path) {
@@ -70,19 +71,27 @@ std::optional<std::pair<std::size_t, double>> nearest_path(const std::vector<con
   return nearest;
 }
 
-/// Each vertex and triangle counts for the cut that it is nearest to.
-void find_guarded(const std::vector<const Wound*>& cuts, const Guard& guard, std::vector<Validity>& result) {
+/// Each vertex and triangle counts for the cut that it is nearest to. Returns for each cut by how much the
+/// lips move otherwise, mm, without the millimetre before each end, which no error of an opening counts.
+std::vector<double> find_guarded(const std::vector<const Wound*>& cuts, const Guard& guard,
+                                 std::vector<Validity>& result) {
+  std::vector<double> of_lips(cuts.size(), 0);
   for (const auto& [vertex, by] : guard.changes()) {
     const auto nearest = nearest_path(cuts, vertex);
     if (!nearest) continue;
-    Validity& v = result[nearest->first];
-    ++v.guarded_vertices;
-    if (const double mm = by * cuts[nearest->first]->scale(); mm > v.guarded)
-      v.guarded = mm, v.guarded_at = nearest->second;
+    const auto& [k, s] = *nearest;
+    const Wound& cut = *cuts[k];
+    const double mm = by * cut.scale();
+    ++result[k].guarded_vertices;
+    if (mm > result[k].guarded) result[k].guarded = mm, result[k].guarded_at = s;
+    const double length = cut.incision->path().length() * cut.scale();
+    if (std::min(s, length - s) > before_ends && cut.volume.locate(vertex)->on_cut)
+      of_lips[k] = std::max(of_lips[k], mm);
   }
   for (const Guard::Unsound& u : guard.unsound())
     if (const auto nearest = nearest_path(cuts, u.vertex))
       result[nearest->first].unsound.push_back({nearest->second, u.place, u.cut, u.s, u.torn});
+  return of_lips;
 }
 
 std::string warning_of(const std::vector<Validity::Unsound>& unsound, bool several) {
@@ -177,7 +186,7 @@ bool pulled_alike(const Field& field) {
 
 std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned, const Guard& guard) {
   std::vector<Validity> result(cuts.size());
-  find_guarded(cuts, guard, result);
+  const std::vector<double> lips_guarded = find_guarded(cuts, guard, result);
   std::vector<std::vector<Junction>> junctions;
   for (std::size_t i = 0; i < cuts.size(); ++i) junctions.push_back(junctions_of(cuts, i));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -207,7 +216,7 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     v.expected_error = opening_error_of(*cuts[i], known,
                                         {nearest_beside, v.junction_tension.value_or(0), v.length_defect, own,
                                          field.interpolation.has_value(), against_first,
-                                         widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
+                                         widest > 0 ? std::max(v.held_back, lips_guarded[i]) / widest : 0});
     const bool several = cuts.size() > 1;
     const std::string which = several ? "cut " + std::to_string(i + 1) + ": " : "";
     if (!v.unsound.empty()) v.warnings.push_back(which + warning_of(v.unsound, several));

@@ -1,16 +1,23 @@
 // How far replays on bodies of all shapes are from simulations of these very bodies:
 //   cleft-truth-bodies [--field NAME=FILE]... [--csv FILE] [--lips FILE] [SUBJECT]...
 // prints a table in Markdown; each body is simulated once (minutes in all).
+//   cleft-truth-bodies --finer [SUBJECT]...
+// prints how far simulations, and the fields of these very bodies, are from simulations with elements of half
+// the size (an hour in all).
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <span>
 
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/h5/h5.h"
 #include "base/output_file.h"
+#include "base/scratch_folder.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "encoder/encode.h"
+#include "encoder/samples.h"
 #include "explorer/body/simulate.h"
 #include "explorer/body/simulated_wounds.h"
 #include "explorer/wound/cut_fields.h"
@@ -29,7 +36,7 @@ struct Options {
   std::vector<std::string> subjects, fields, assignments;
   std::string csv, lips;
   double reach = 40;
-  bool list = false;
+  bool list = false, finer = false;
 };
 
 /// The fields of one column, in the tension of a body.
@@ -82,52 +89,127 @@ struct LipPair {
   Vec3 simulated, replayed;
 };
 
+/// The cuts of a body in a mesh of its skin, complete.
+struct CutSkin {
+  CutSkin(const BodyRequest& request, double reach) : mesh(request.skin) {
+    IncisionOptions how;
+    how.reach = reach;
+    for (const ScalpelPath& path : request.paths) {
+      made.push_back(std::make_unique<Incision>(mesh, path, how));
+      made.back()->advance_to(path.length());
+      cuts.push_back(made.back().get());
+    }
+  }
+  CutMesh mesh;
+  std::vector<std::unique_ptr<Incision>> made;
+  std::vector<const Incision*> cuts;
+};
+
+/// Of positions against those of a simulation: `opening`, `skin`, `inner` and `where`.
+Off off_of(const CutSkin& skin, std::span<const Vec3> replayed, std::span<const Vec3> simulated,
+           std::vector<LipPair>* lips = nullptr) {
+  Off off;
+  const ReplayOff all = replay_off(skin.cuts, replayed, simulated, 0);
+  off.opening = all.relative_opening(), off.skin = all.gape > 0 ? all.displacement / all.gape : 0;
+  double worst = 0;
+  for (std::size_t k = 0; k < skin.cuts.size(); ++k)
+    for (const auto& c : skin.cuts[k]->chain()) {
+      const ScalpelPath& path = skin.cuts[k]->path();
+      const double s = skin.mesh.vertex(c.left).s;
+      const Vec3 in_simulation = simulated[c.right] - simulated[c.left],
+                 in_replay = replayed[c.right] - replayed[c.left];
+      const PathFrame frame = path.at(s);
+      const auto in_frame = [&](const Vec3& x) {
+        return Vec3{dot(x, frame.along), dot(x, frame.across), dot(x, frame.outward)};
+      };
+      if (lips) lips->push_back({k, s, in_frame(in_simulation), in_frame(in_replay)});
+      const double error = norm(in_simulation - in_replay);
+      if (error > worst) worst = error, off.where = s / path.length();
+      if (all.gape > 0 && std::min(s, path.length() - s) > end)
+        off.inner = std::max(off.inner, error / all.gape);
+    }
+  return off;
+}
+
 /// One body, cut and opened by fields as cleft cut does, against its simulation.
 Off compare(const BodyRequest& request, const CutFields& fields, const BodySimulation& simulation,
             std::vector<LipPair>& lips) {
   const Stopwatch watch;
-  CutMesh mesh(request.skin);
-  std::vector<std::unique_ptr<Incision>> made;
-  std::vector<const Incision*> cuts;
-  IncisionOptions how;
-  how.reach = reach_of(fields.shape(), 1);
-  for (const ScalpelPath& path : request.paths) {
-    made.push_back(std::make_unique<Incision>(mesh, path, how));
-    made.back()->advance_to(path.length());
-    cuts.push_back(made.back().get());
-  }
+  const CutSkin skin(request, reach_of(fields.shape(), 1));
   std::vector<Wound> opened;
-  opened.reserve(cuts.size());
-  for (const Incision* cut : cuts) opened.push_back(fields.wound(*cut, 1));
+  opened.reserve(skin.cuts.size());
+  for (const Incision* cut : skin.cuts) opened.push_back(fields.wound(*cut, 1));
   const ReplayedWounds wounds(std::move(opened));
   std::vector<Vec3> replayed(wounds.vertex_count()), simulated(wounds.vertex_count());
   wounds.positions(wounds.duration(), replayed);
-  Off off;
-  off.seconds = watch.seconds();
-  const SimulatedWounds truth(cuts, 1, simulation.body, *simulation.series);
+  const double seconds = watch.seconds();
+  const SimulatedWounds truth(skin.cuts, 1, simulation.body, *simulation.series);
   truth.bare_positions(truth.duration(), simulated);
-  const ReplayOff all = replay_off(cuts, replayed, simulated, 0);
-  off.opening = all.relative_opening(), off.skin = all.gape > 0 ? all.displacement / all.gape : 0;
+  Off off = off_of(skin, replayed, simulated, &lips);
+  off.seconds = seconds;
   for (const Validity& v : wounds.validity(fields.turning())) {
     off.warned |= !v.warnings.empty();
     off.expected = std::max(off.expected, v.expected_error.largest);
   }
-  double worst = 0;
-  for (std::size_t k = 0; k < cuts.size(); ++k)
-    for (const auto& c : cuts[k]->chain()) {
-      const double s = mesh.vertex(c.left).s, length = cuts[k]->path().length();
-      const Vec3 in_simulation = simulated[c.right] - simulated[c.left],
-                 in_replay = replayed[c.right] - replayed[c.left];
-      const PathFrame frame = cuts[k]->path().at(s);
-      const auto in_frame = [&](const Vec3& x) {
-        return Vec3{dot(x, frame.along), dot(x, frame.across), dot(x, frame.outward)};
-      };
-      lips.push_back({k, s, in_frame(in_simulation), in_frame(in_replay)});
-      const double error = norm(in_simulation - in_replay);
-      if (error > worst) worst = error, off.where = s / length;
-      if (all.gape > 0 && std::min(s, length - s) > end) off.inner = std::max(off.inner, error / all.gape);
-    }
   return off;
+}
+
+struct Splined {
+  std::unique_ptr<SnapshotReader> series;
+  double spline_error;
+};
+
+/// The simulation with the displacements of the spline that cleft encode makes of it in place of its own, in
+/// a file of this folder.
+Splined with_spline(const BodySimulation& simulation, const std::string& folder) {
+  const SnapshotReader& series = *simulation.series;
+  const Snapshot& s = series.snapshot();
+  const Field spline = encode(Series(series), {}, [](const std::string&) {}).field;
+  const std::vector<Sample> places = samples_in_field(series);
+  std::vector<double> canonical, axes;
+  for (const Vec3& at : simulation.body.canonical) canonical.insert(canonical.end(), {at.x, at.y, at.z});
+  for (const auto& frame : simulation.body.frames)
+    for (const Vec3& axis : frame) axes.insert(axes.end(), {axis.x, axis.y, axis.z});
+  SnapshotWriter out(folder + "/spline.h5", s, {canonical_array, frame_array});
+  out.write_array(canonical_array, 0, canonical);
+  out.write_array(frame_array, 0, axes);
+  for (std::size_t f = 0; f < s.frames(); ++f) {
+    std::vector<Vec3> moved;
+    for (std::size_t n = 0; n < places.size(); ++n)
+      moved.push_back(in_space(spline.displacement(places[n].uvw, places[n].side, s.times[f]), &axes[9 * n]));
+    out.write_frames(f, moved);
+  }
+  out.finish(s);
+  return {std::make_unique<SnapshotReader>(folder + "/spline.h5"), spline.report.spline_error};
+}
+
+/// The simulation that cut --simulate makes, and the spline that cleft encode makes of it, against the
+/// simulation with elements of half the size.
+void tell_finer(const std::string& name, const BodyRequest& request) {
+  const BodySimulation usual = simulate(request);
+  BodyRequest half = request;
+  half.parameters.mesh.element_size /= 2;
+  const BodySimulation finer = simulate(half);
+  const CutSkin skin(request, request.reach);
+  const auto positions = [&](const Body& body, const SnapshotReader& series) {
+    const SimulatedWounds wounds(skin.cuts, 1, body, series);
+    std::vector<Vec3> moved(skin.mesh.vertices().size());
+    wounds.bare_positions(wounds.duration(), moved);
+    return moved;
+  };
+  const std::vector<Vec3> truth = positions(finer.body, *finer.series);
+  const Off simulated = off_of(skin, positions(usual.body, *usual.series), truth);
+  std::string encoded = "| | |";  // a field holds one cut
+  if (request.paths.size() == 1) {
+    const ScratchFolder folder("truth");
+    const auto [splined, spline_error] = with_spline(usual, folder.path());
+    const Off off = off_of(skin, positions(usual.body, *splined), truth);
+    encoded = formatted("%.2f | %.2f | %.2f |", off.inner, off.skin, spline_error);
+  }
+  std::printf("| %s | %.2f | %.2f | %.2f | %s %d | %.1f | %d | %.0f |\n", name.c_str(), finer.gape,
+              simulated.inner, simulated.skin, encoded.c_str(), usual.report.nodes, usual.seconds,
+              finer.report.nodes, finer.seconds);
+  std::fflush(stdout);
 }
 
 /// The tension that the simulation has: that of the case, along the chord of the first path.
@@ -201,6 +283,13 @@ class Table {
   int within_ = 0, all_ = 0;
 };
 
+BodyRequest request_of(const testing::Subject& subject, const BodyRequest& common) {
+  BodyRequest request = common;
+  request.skin = subject.skin, request.paths = subject.paths;
+  if (subject.bone) request.bone = std::make_shared<const SurfaceIndex>(*subject.bone);
+  return request;
+}
+
 void run(const Options& options) {
   std::vector<testing::NamedSubject> subjects = testing::body_subjects(options.reach + 5);
   if (!options.subjects.empty())
@@ -221,14 +310,18 @@ void run(const Options& options) {
   common.reach = options.reach;
   std::vector<Source> sources;
   for (const std::string& named : options.fields) sources.push_back(from_file(named));
+  if (options.finer) {
+    std::printf(
+        "| body | mm | simulated | skin | its field | skin | spline_error | nodes | s | finer nodes | s |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const auto& [name, make] : subjects) tell_finer(name, request_of(make(), common));
+    return;
+  }
   if (sources.empty()) sources = default_sources();
   Table table(sources, options.csv, options.lips);
   for (const auto& [name, make] : subjects) {
     try {
-      const testing::Subject subject = make();
-      BodyRequest request = common;
-      request.skin = subject.skin, request.paths = subject.paths;
-      if (subject.bone) request.bone = std::make_shared<const SurfaceIndex>(*subject.bone);
+      const BodyRequest request = request_of(make(), common);
       const SkinTension tension = tension_of(request);
       const BodySimulation simulation = simulate(request);
       std::vector<Off> offs;
@@ -265,6 +358,10 @@ int main(int argc, char** argv) {
   app.add_option("--csv", o.csv, "the table too, with the place of the largest error and times");
   app.add_option("--lips", o.lips,
                  "CSV: the vectors from lip to lip along all cuts, simulated and replayed, mm");
-  app.add_flag("--list", o.list, "the names of the bodies");
+  auto* list = app.add_flag("--list", o.list, "the names of the bodies");
+  app.add_flag("--finer", o.finer,
+               "instead: how far the simulations, and the fields of these very bodies, are from simulations "
+               "with elements of half the size")
+      ->excludes(list);
   return run_command(app, argc, argv, [&] { run(o); });
 }

@@ -236,6 +236,24 @@ TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
   }
 }
 
+/// A vertex at the edge of the mesh follows its neighbour further than the skin around does. That the
+/// neighbour turns a triangle over for a moment is no reason to hold both back for good, as means of what is
+/// around do.
+TEST(GuardSearch, HoldsNothingForGoodForWhatIsUnsoundForAMoment) {
+  const CutMesh mesh(grid(10, 10, 0, 0, 1));
+  constexpr int at_edge = 55, next = 56;
+  for (const bool passes : {false, true}) {
+    GuardSearch search(mesh, 0.05,
+                       {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
+                        [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
+    if (passes) search.add({{next, {1.5, 0, 0}}}, false);
+    search.add({{at_edge, {1.2, 0, 0}}, {next, {0.6, 0, 0}}}, true);
+    ASSERT_TRUE(search.find());
+    EXPECT_TRUE(search.result().empty()) << passes;
+    EXPECT_EQ(search.remaining().empty(), !passes) << "what is left to moments";
+  }
+}
+
 TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
   Opened opened(grid(60, 40, -30, -20, 1));
   for (const double y : {-0.25, 0.25}) opened.cut(path_through({{-15, y, 0}, {15, y, 0}}, up, 3));
