@@ -1,17 +1,11 @@
 // Cuts side by side relieve each other: each opens in the tension that the others leave. The field of each is
-// scaled along its path by an amplitude. Of cuts that do not meet it is how far each opens in a membrane with
-// all of them, over what it opens alone (membrane_relief.h). Of cuts that meet it is A(s), the tension across
-// the path relative to that without the others:
-//   A_i(s) = 1 + sum over j of A_j r_ij(s),   r_ij = (change of tension across path i that cut j alone makes)
-//   / (tension)
-// a fixed point in the amplitudes of all cuts (Kachanov 1987, elastic solids with many cracks, with constant
-// amplitudes; here they vary along the path). The change of tension in the skin is its plane stress for the
-// strain of the other cut's field. Where cuts of either kind are together, the amplitude is the product.
+// scaled along its path by an amplitude: how far the cut opens in a membrane with all of them, over what it
+// opens alone (membrane_relief.h).
 //
-// Of parallel cuts the strip between them sinks and becomes longer, and the skin beyond them rises as beside
-// a cut alone: lips lean. Next to them a share of the displacement across the cut is added upright, in
-// proportion to how much it is relieved from that side. And they shift along the cut: of cuts that do not
-// meet as in the membrane, of others toward the middle, as much as they lean at the ends.
+// Lips also lean: the strip between two cuts sinks, and the skin beyond them rises as it does beside one.
+// What another cut shears of the tissue down to the bottom, its walls no longer pass on: the wall from which
+// the shear pulled up sinks, and the other one rises. Next to a cut a share of the displacement across is
+// added upright, in proportion to that shear. And lips shift along the cut, as in the membrane.
 #pragma once
 
 #include <algorithm>
@@ -104,12 +98,11 @@ class Relief {
 };
 
 /// The amplitudes of all cuts at each position of the blade, mm of the path of the last one, with the others
-/// complete. All 1 for a single cut. Throws InputError if a field lacks the skin's prestress or stiffness.
+/// complete. All 1 for a single cut, and of fields
+/// that do not open. Throws InputError if a field lacks the skin's prestress across
+/// the cut.
 std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
                                                   const std::vector<double>& blades);
-
-/// The amplitudes as of cuts that all meet, with the blade at one place.
-std::vector<Amplitude> relief_of_meeting_cuts(const std::vector<const Wound*>& cuts, double blade);
 
 /// Those of mutual_relief while the blade makes the first `length` mm of the last cut's path.
 Relief relief_while_cut(const std::vector<const Wound*>& cuts, double length);

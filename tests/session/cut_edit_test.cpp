@@ -261,7 +261,16 @@ TEST_F(SessionTest, FiguresOfLargeWoundsHaveNoExponent) {
 }
 
 TEST_F(SessionTest, CutsThatAFieldCannotOpenTogetherAreRefusedAndTheFirstStays) {
-  say("open " + raw_study());  // its fields do not tell the tension along the cut
+  const TemporaryFolder untold;  // a study whose fields do not tell the tension across the cut
+  for (const int number : {0, 1}) {
+    const std::string name = "case" + std::to_string(number), place = untold / ("study/cases/" + name);
+    std::filesystem::create_directories(place);
+    Field field = read_field(raw_study() + "/cases/" + name + "/case.dffd");
+    field.parameters = recorded({{"tissue.young_modulus", 0.02 + 0.01 * number}, {"cut.depth", 6}});
+    write_field(place + "/case.dffd", field);
+    std::ofstream(place + "/manifest.json") << "{}";
+  }
+  say("open " + (untold / "study"));
   say("mesh plate.stl");
   say("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
   const std::string before = state_to_json(state());
