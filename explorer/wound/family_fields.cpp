@@ -101,14 +101,34 @@ std::vector<double> normalised(const CaseShape& one, const Prestress& local, con
   return list;
 }
 
-/// Places of a list, the first and the last among them, between which the others are on straight lines that
-/// are not too long: fields are no linear functions of what is linear along the path.
+/// Where the canonical place of a path that is longer than the canonical cut stops in its middle, and goes
+/// on: the case that stands for a place is seen from others on the same side of these alone.
+std::vector<double> corners_of(double length, const CanonicalCut& cut) {
+  if (length <= cut.length) return {};
+  return {cut.length / 2, length - cut.length / 2};
+}
+
+void add_stations(PathShape& shapes, const std::vector<double>& places) {
+  for (const double s : places) {
+    const auto next = std::lower_bound(shapes.stations.begin(), shapes.stations.end(), s);
+    if (next == shapes.stations.begin() || next == shapes.stations.end() || *next == s) continue;
+    const LocalShape there = shapes.at(s);
+    shapes.values.insert(shapes.values.begin() + (next - shapes.stations.begin()), there);
+    shapes.stations.insert(next, s);
+  }
+}
+
+/// Places of a list, the first and the last and the corners among them, between which the others are on
+/// straight lines that are not too long: fields are no linear functions of what is linear along the path.
 std::vector<std::size_t> bends_of(const std::vector<double>& s, const std::vector<std::vector<double>>& x,
-                                  double most_bent, double farthest) {
+                                  double most_bent, double farthest,
+                                  const std::vector<double>& corners = {}) {
   std::vector<std::size_t> kept{0};
   const auto straight = [&](std::size_t a, std::size_t b) {
     for (std::size_t k = 0; k < x[a].size(); ++k)
       if (std::abs(x[b][k] - x[a][k]) > farthest) return false;
+    for (const double corner : corners)
+      if (s[a] < corner && corner < s[b]) return false;
     for (std::size_t i = a + 1; i < b; ++i)
       for (std::size_t k = 0; k < x[i].size(); ++k) {
         const double line = std::lerp(x[a][k], x[b][k], (s[i] - s[a]) / (s[b] - s[a]));
@@ -198,6 +218,8 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
   const CanonicalCut& cut = shape().cut();
   const double length = incision.path().length() * scale;
   PathShape shapes = shape_along(incision, scale, smoothing());
+  const std::vector<double> corners = corners_of(length, cut);
+  add_stations(shapes, corners);
   for (std::size_t i = 0; i < shapes.stations.size(); ++i)
     shapes.values[i] = known_to_family(shapes.values[i], incision, scale, shapes.stations[i]);
   while (shapes.stations.size() > 1 && shapes.stations.back() > known)
@@ -235,7 +257,7 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
     for (int c = 0; c < 3; ++c) numbers.back().push_back(along[c]);
   }
   std::vector<StationField> stations;
-  for (const std::size_t i : bends_of(shapes.stations, numbers, straight_enough, near_enough)) {
+  for (const std::size_t i : bends_of(shapes.stations, numbers, straight_enough, near_enough, corners)) {
     const double s = shapes.stations[i];
     const auto [field, outside] = family_->at(cases[i].shapes, cases[i].prestress);
     stations.push_back({s, field, local[i], shapes.values[i].along, outside});

@@ -34,7 +34,7 @@ double canonical_piece(const Wound& wound) { return wound.field.shape().cut().le
 
 /// Places of a cut where it touches another one, mm along its path.
 std::vector<double> touched_at(const Wound& cut, const Wound& other) {
-  constexpr int samples_a_piece = 8, rounds = 20;
+  constexpr int samples_a_piece = 2, rounds = 20;
   const ScalpelPath &path = cut.incision->path(), &other_path = other.incision->path();
   const double length = cut.complete(), other_end = other.complete() / other.scale();
   const int samples = std::max(2, static_cast<int>(samples_a_piece * length / canonical_piece(cut)));
@@ -46,8 +46,10 @@ std::vector<double> touched_at(const Wound& cut, const Wound& other) {
   std::vector<double> found, distances;
   for (int i = 0; i <= samples; ++i) distances.push_back(distance(length * i / samples));
   for (int i = 0; i <= samples; ++i) {
-    if ((i > 0 && distances[i - 1] < distances[i]) || (i < samples && distances[i + 1] <= distances[i]))
-      continue;
+    const bool nearest =
+        (i == 0 || distances[i - 1] >= distances[i]) && (i == samples || distances[i + 1] > distances[i]);
+    // Between samples it is nearer by no more than the way to them.
+    if (!nearest || distances[i] > touching * canonical_piece(cut) + length / samples) continue;
     double from = length * std::max(0, i - 1) / samples, to = length * std::min(samples, i + 1) / samples;
     for (int round = 0; round < rounds; ++round) {
       const double third = (to - from) / 3;

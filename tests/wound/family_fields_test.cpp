@@ -11,6 +11,7 @@
 #include "encoder/interpolate/case_modes.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/opening_error.h"
+#include "explorer/wound/room.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/family_file.h"
 
@@ -82,6 +83,18 @@ TEST(Family, AnArcOpensAsTheCaseOfItsCurvatureInTheTensionAtItsMiddle) {
     const double turn = curvature * 10;  // of the path's end against its middle
     EXPECT_NEAR(wound.field.prestress(&Prestress::vv, 20),
                 0.02 - 0.01 * std::cos(2 * (std::atan2(0.8, 0.6) - turn)), 0.02 * std::abs(curvature));
+  }
+}
+
+/// The case that stands for a place of an arc is seen along the arc, but not beyond where the canonical place
+/// stays in the middle: there is a case for that very place.
+TEST(Family, ALongPathHasCasesForWhereItsCanonicalPlaceStaysInTheMiddle) {
+  const CutFields fields = read_cut_fields(family_file().file(), {1, 1, 0}, {0.03, 0.01});
+  const Cut cut(arc(0.05, 43));
+  const Wound wound = fields.wound(cut.incision, 1);
+  for (const double s : {10., 33.}) {
+    const double tension = std::numbers::pi / 4 - 0.05 * (s - 21.5);  // its direction, from that of the path
+    EXPECT_NEAR(wound.field.prestress(&Prestress::vv, s), 0.02 - 0.01 * std::cos(2 * tension), 4e-6) << s;
   }
 }
 
