@@ -156,13 +156,31 @@ void LiveReplay::enter() {
     Slot& slot = slots_[static_cast<std::size_t>(entering_[i].vertex) + 1];
     slot.batch = static_cast<int>(batches_.size());
     slot.index = static_cast<int>(i);
-    beside_[static_cast<std::size_t>(entering_[i].vertex) + 1] = {entering_[i], wound_};
+    beside_[static_cast<std::size_t>(entering_[i].vertex) + 1] = beside_of(entering_[i]);
     touched_.push_back(entering_[i].vertex);
   }
   batches_.push_back({contractor_.contract(entering_, 1), entering_.size()});
   batches_.back().pieces.positions(blade_, rest_.data(), position_.data());
   active_ += entering_.size();
   contracted_ += entering_.size();
+}
+
+BesideCut LiveReplay::beside_of(const ActiveVertex& vertex) const {
+  BesideCut beside(vertex, wound_);
+  beside.keep_with_own_piece(vertex, number_, cuts_, crossings_);
+  return beside;
+}
+
+void LiveReplay::cross(std::size_t cut, std::vector<const Wound*> cuts, std::vector<Crossing> crossings) {
+  number_ = cut, cuts_ = std::move(cuts), crossings_ = std::move(crossings);
+  for (const int v : entered()) {
+    BesideCut& beside = beside_[static_cast<std::size_t>(v) + 1];
+    const bool near = std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& one) {
+      return one.cut == number_ && std::abs(beside.s - one.s) < one.fades;
+    });
+    if (!near) continue;
+    if (const auto at = volume_.locate(v)) beside = beside_of(*at);
+  }
 }
 
 std::vector<int> LiveReplay::entered() const {

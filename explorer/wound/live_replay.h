@@ -48,6 +48,9 @@ class LiveReplay {
 
   /// The place of a vertex that has entered.
   const BesideCut& beside(int vertex) const { return beside_[static_cast<std::size_t>(vertex) + 1]; }
+  /// Where complete cuts cross, of which this one is number `cut`: vertices next to it keep with their own
+  /// piece of skin (BesideCut), those that enter later too. The cuts must outlive it.
+  void cross(std::size_t cut, std::vector<const Wound*> cuts, std::vector<Crossing> crossings);
   /// All vertices that have entered and still exist.
   std::vector<int> entered() const;
 
@@ -58,6 +61,7 @@ class LiveReplay {
   std::size_t contracted() const { return contracted_; }  ///< in the last follow()
 
  private:
+  BesideCut beside_of(const ActiveVertex& vertex) const;
   /// Vertices that entered together.
   struct Batch {
     ReplayPieces pieces;
@@ -106,6 +110,9 @@ class LiveReplay {
   std::vector<Vec3> rest_, position_;  // number 0 is unused: it receives the results of vertices that left
   std::vector<Slot> slots_;
   std::vector<BesideCut> beside_;
+  std::size_t number_ = 0;  // among the cuts that cross
+  std::vector<const Wound*> cuts_;
+  std::vector<Crossing> crossings_;
   std::vector<Placed> placed_;  // of a path that is extended
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;

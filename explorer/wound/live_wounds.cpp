@@ -17,6 +17,13 @@ void LiveWounds::add(Wound wound, std::size_t most_entering) {
   scale_ = wound.scale();
   replays_.emplace_back(Wounds::add(std::move(wound)), most_entering);
   now_ = relief(size() - 1).at(1);
+  if (size() > 1) cross(size() - 1);
+}
+
+/// The first `count` wounds are complete.
+void LiveWounds::cross(std::size_t count) {
+  set_crossings(crossings_of(first(count)));
+  for (std::size_t k = 0; k < count; ++k) replays_[k].cross(k, first(count), crossings());
 }
 
 void LiveWounds::follow(std::size_t count) {
@@ -89,6 +96,7 @@ bool LiveWounds::relieve() {
     amplitudes.assign(size(), {{0}, {1}});
   }
   set_relief(last, Relief({std::move(amplitudes)}));
+  if (complete) cross(size());
   now_ = relief(last).at(1);
   relieved_at_ = length;
   return true;

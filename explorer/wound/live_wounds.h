@@ -50,6 +50,7 @@ class LiveWounds : public Wounds {
 
  private:
   double length() const;  ///< mm, of all cuts
+  void cross(std::size_t count);
   Vec3 without_guard(int vertex) const {
     Vec3 sum;
     std::size_t k = 0;

@@ -32,7 +32,8 @@ constexpr double least_opening = 1e-6;
 
 double canonical_piece(const Wound& wound) { return wound.field.shape().cut().length / own_pieces; }
 
-/// Places of a cut where it touches another one, mm along its path.
+}  // namespace
+
 std::vector<double> touched_at(const Wound& cut, const Wound& other) {
   constexpr int samples_a_piece = 2, rounds = 20;
   const ScalpelPath &path = cut.incision->path(), &other_path = other.incision->path();
@@ -62,6 +63,8 @@ std::vector<double> touched_at(const Wound& cut, const Wound& other) {
   }
   return found;
 }
+
+namespace {
 
 /// A cut in straight pieces.
 struct Cut {

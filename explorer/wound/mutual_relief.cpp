@@ -27,9 +27,9 @@ constexpr double leaning = 1.2;
 /// Depths of the cut: what lips lean falls to nothing over so much before an end, and by e so far from them.
 constexpr double leans_fully = 0.6, leaning_reach = 2. / 3;
 /// The shear is summed over parts of the cut's depth, each taken in its middle, and is the mean at two Gauss
-/// points of a part of the depth to either side, never across the other cut: on its lip the strain of a
-/// spline that was fitted to nodes is not determined. Along the other cut it is a difference over that part:
-/// next to its front, derivatives of a field jump.
+/// points of a part of the depth to either side. Nearer to the other cut than its depth it is as so far from
+/// it: next to a wall the tissue is free of shear, but the strip between the walls sinks as a whole. Along
+/// the other cut it is a difference over that part: next to its front, derivatives of a field jump.
 constexpr int layers = 6;
 constexpr double reach = 0.5;
 const double gauss = 1 / std::numbers::sqrt3;
@@ -55,7 +55,7 @@ double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, d
                          (to - from);
     return at.weight * (a * (d.by_w.x + rises) + b * (d.by_w.y + d.by_v.z));
   };
-  const double beside = std::max(std::abs(at.uvw.y), reach * cut.depth);
+  const double beside = std::max(std::abs(at.uvw.y), cut.depth);
   double sum = 0;
   for (const double distance : {beside - gauss * reach * cut.depth, beside + gauss * reach * cut.depth}) {
     const double v = std::copysign(distance, at.side == Side::left    ? -1.
@@ -94,6 +94,47 @@ BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound)
     : s(vertex.s), along(vertex.along), outward(vertex.outward) {
   const CanonicalCut& cut = wound.field.shape().cut();
   across = std::exp(-std::abs(vertex.uvw.y) / (leaning_reach * cut.depth)) * vertex.across;
+}
+
+std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts) {
+  std::vector<Crossing> found;
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    for (std::size_t j = 0; j < cuts.size(); ++j) {
+      if (i == j) continue;
+      const Wound &cut = *cuts[i], &other = *cuts[j];
+      const double depth = other.field.shape().cut().depth;
+      for (const double s : touched_at(cut, other)) {
+        const Vec3 place = cut.scale() / other.scale() * cut.incision->path().at(s / cut.scale()).position;
+        const double other_s = other.scale() * other.incision->path().coordinates(place).s;
+        const double sine = dot(cut.volume.skin_frame(s / cut.scale()).along,
+                                other.volume.skin_frame(other_s / other.scale()).across);
+        if (std::abs(sine) < turned_away) continue;
+        const double fades = lean_fades * depth / std::abs(sine);
+        const auto inside = [fades](double at, double length) { return fades < at && at < length - fades; };
+        if (inside(s, cut.complete()) && inside(other_s, other.complete()))
+          found.push_back({i, j, s, fades, sine > 0 ? 1. : -1.});
+      }
+    }
+  return found;
+}
+
+void BesideCut::keep_with_own_piece(const ActiveVertex& vertex, std::size_t cut,
+                                    const std::vector<const Wound*>& cuts,
+                                    std::span<const Crossing> crossings) {
+  for (const Crossing& crossing : crossings) {
+    if (crossing.cut != cut) continue;
+    const double from = vertex.s - crossing.s, away = std::hypot(from, vertex.uvw.y) / crossing.fades;
+    if (away >= 1) continue;
+    const std::optional<ActiveVertex> in_other = cuts[crossing.other]->volume.locate(vertex.vertex);
+    if (!in_other) continue;
+    const double side = in_other->side == Side::left    ? -1
+                        : in_other->side == Side::right ? 1
+                        : in_other->uvw.y < 0           ? -1
+                                                        : 1;
+    // Both cuts part the corners: of what lips lean further away half is due to each.
+    const double own = crossing.toward * side, far = std::max(own * from, crossing.fades / 2);
+    s += (1 - away) * (own * far - from);
+  }
 }
 
 Relief::At Relief::at(double part) const {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "explorer/wound/wound.h"
@@ -28,6 +29,15 @@ struct Amplitude {
   double at(double s) const { return (*this)(s).value; }
 };
 
+/// Where a cut is crossed by another one.
+struct Crossing {
+  std::size_t cut, other;
+  double s;       ///< mm along the cut
+  double fades;   ///< mm: over which the lips of this cut change the side to which they lean
+  double toward;  ///< 1: with s the cut goes to v > 0 of the other one, or -1
+};
+std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts);
+
 /// A vertex beside a cut, as its relief needs it.
 struct BesideCut {
   double s = 0;         ///< mm along the path
@@ -36,6 +46,10 @@ struct BesideCut {
 
   BesideCut() = default;
   BesideCut(const ActiveVertex& vertex, const Wound& wound);
+  /// Next to where the cut is crossed by others it counts as on that part of the cut which its piece of skin
+  /// is beside: corners of a crossing are at one place of each cut.
+  void keep_with_own_piece(const ActiveVertex& vertex, std::size_t cut, const std::vector<const Wound*>& cuts,
+                           std::span<const Crossing> crossings);
   /// What lips that lean, and shift along the cut, add for each mm of displacement across.
   Vec3 added(const Amplitude::At& there) const { return there.lean * outward + there.shift * along; }
 };

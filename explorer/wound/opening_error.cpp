@@ -14,18 +14,18 @@ namespace cleft {
 namespace {
 
 // Factors of the laws, for errors over the largest opening (tests/truth/bodies.md).
-constexpr double of_fit = 0.02;          // a straight flat cut
-constexpr double of_bend = 7.2;          // mm: times the curvature, where the tension does not turn
-constexpr double of_bend_turned = 25;    // mm^2: times its square, where it does
-constexpr double of_tilt = 0.15;         // at 45 degrees, with the square of the tilt
-constexpr double of_tilt_family = 0.06;  // likewise
+constexpr double of_fit = 0.02;           // a straight flat cut
+constexpr double of_bend = 7.2;           // mm: times the curvature, where the tension does not turn
+constexpr double of_bend_turned = 25;     // mm^2: times its square, where it does
+constexpr double of_tilt = 0.07;          // at 45 degrees, with the square of the tilt
+constexpr double of_tilt_family = 0.035;  // likewise
 constexpr double of_shallow = 0.27, of_deep = 0.16;  // times the logarithm of depth over the canonical one
 constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: times the skin's curvatures
 constexpr double of_length = 0.1;  // times the part of the path beyond the canonical cut
 /// Of the error by the length, where the tension is that with which the whole path opens (path_opening.h).
 constexpr double of_length_turned = 0.4;
-constexpr double of_neighbour = 0.08, neighbour_reach = 20;  // falls by e over so many mm
-constexpr double of_nearest = 0.12;                          // of one that is nearer than cuts are deep
+constexpr double of_neighbour = 0.05, neighbour_reach = 20;  // falls by e over so many mm
+constexpr double of_nearest = 0.08;                          // of one that is nearer than cuts are deep
 /// Where the cut that it meets is pulled alike along and across, or the tension does not turn; up to a third
 /// as hard along as across none.
 constexpr double of_junction = 0.6, pulled_enough = 1. / 3;

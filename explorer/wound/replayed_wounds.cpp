@@ -16,9 +16,12 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
     whole_.replays.emplace_back(add(std::move(wound)));
     begins_.push_back(begins_.back() + whole_.replays.back().path_length());
   }
+  const std::vector<const Wound*> all = first(size());
+  set_crossings(crossings_of(all));
   for (std::size_t k = 0; k < size(); ++k) {
     std::vector<BesideCut>& beside = whole_.beside.emplace_back();
-    for (const ActiveVertex& a : active(k)) beside.emplace_back(a, (*this)[k]);
+    for (const ActiveVertex& a : active(k))
+      beside.emplace_back(a, (*this)[k]).keep_with_own_piece(a, k, all, crossings());
   }
   std::vector<Vec3> moved(size() > 1 ? vertex_count() : 0);
   for (std::size_t k = 0; k + 1 < size(); ++k) {

@@ -28,7 +28,9 @@ double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
 }
 
 Vec3 Wounds::relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const {
-  return relief_at(blade).relieved(cut, BesideCut(at, wounds_[cut]), alone);
+  BesideCut beside(at, wounds_[cut]);
+  if (at.vertex >= 0) beside.keep_with_own_piece(at, cut, first(size()), crossings_);
+  return relief_at(blade).relieved(cut, beside, alone);
 }
 
 Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,

@@ -61,6 +61,10 @@ class Wounds {
   /// The amplitudes at a position of the blade; valid until a wound is added or a relief is set.
   Relief::At relief_at(const Blade& blade) const;
 
+  /// Where complete cuts cross; none while a cut is made.
+  void set_crossings(std::vector<Crossing> crossings) { crossings_ = std::move(crossings); }
+  const std::vector<Crossing>& crossings() const { return crossings_; }
+
   /// A vertex that a cut moves, and its displacement by this cut alone, mesh units.
   struct Moved {
     int vertex;
@@ -93,6 +97,7 @@ class Wounds {
 
   std::deque<Wound> wounds_;
   std::vector<Relief> relief_;  // while wound k is the newest
+  std::vector<Crossing> crossings_;
   Guard guard_;
 };
 

@@ -328,7 +328,7 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
   EXPECT_EQ(within.stations.size(), within.values.size());
   const Cut straight(arc(1e-6, 20));
   const Wound wound = fields.wound(straight.incision, 1);
-  EXPECT_GT(opening_error_of(wound, true, {.nearest_cut = 4}).largest, 0.06) << "another cut 4 mm away";
+  EXPECT_GT(opening_error_of(wound, true, {.nearest_cut = 4}).largest, 0.04) << "another cut 4 mm away";
   const OpeningError held = opening_error_of(wound, true, {.held_back = 0.2});
   EXPECT_NEAR(held.largest, 0.2, 0.01);
   EXPECT_NE(held.cause.find("the skin would turn over"), std::string::npos) << held.cause;
@@ -348,6 +348,14 @@ TEST(Family, WhatItDoesNotFollowIsJudgedAsOfOneField) {
   const OpeningError error = opening_error_of(unknown, true, {});
   EXPECT_GT(error.largest, 0.04);
   EXPECT_EQ(error.cause, "its depth of 4 mm is not that of the field's cut");
+  // Tilted by 45 degrees simulated cuts are off by 0.06 to 0.09 from one field (tests/truth).
+  const double part = std::numbers::sqrt2 / 2;
+  const SurfaceMesh plane = grid(60, 60, -30, -30, 1);
+  const Vec3 leaning{0, part, part};
+  Incision tilted(
+      plane, ScalpelPath({{{-10, 0, 0}, leaning, 3}, {{0, 0, 0}, leaning, 3}, {{10, 0, 0}, leaning, 3}}));
+  tilted.advance_to(20);
+  EXPECT_NEAR(opening_error_of(knows_bone.wound(tilted, 1), true, {}).largest, 0.07, 0.015);
 }
 
 TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {

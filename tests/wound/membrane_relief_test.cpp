@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 
+#include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/fields.h"
 
@@ -151,6 +152,34 @@ TEST(MembraneRelief, LipsThatLeanChangeSidesWhereCutsCross) {
   EXPECT_GT(std::abs(lean), 0.02);
   EXPECT_NEAR(first(20).lean, -lean, 0.25 * std::abs(lean));  // stations are 2 mm apart
   EXPECT_LT(std::abs(first(15).lean), 0.7 * std::abs(lean));
+}
+
+/// Both cuts part the corners: of two that face each other the lips rise, and of the others they sink.
+TEST(MembraneRelief, CornersOfACrossingLeanAsTheLipsBesideThem) {
+  const Field field = ellipses();
+  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
+  std::vector<std::unique_ptr<Incision>> made;
+  for (const auto& path : {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 10, 10.1)}) {
+    made.push_back(std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{}));
+    made.back()->advance_to(made.back()->path().length());
+  }
+  std::vector<Wound> opened;
+  opened.reserve(2);
+  for (const auto& cut : made) opened.emplace_back(*cut, turning(field), 1);
+  const ReplayedWounds wounds(std::move(opened));
+  std::vector<Vec3> now(wounds.vertex_count());
+  wounds.positions(wounds.duration(), now);
+  std::vector<double> corners, further;  // left above right, at the crossing and 1 to 2 mm behind it
+  for (const auto& c : made[1]->chain()) {
+    const double from = c.s - 10 * std::numbers::sqrt2, higher = now[c.left].z - now[c.right].z;
+    if (std::abs(from) < 0.02) corners.push_back(higher);
+    if (from > 1 && from < 2) further.push_back(higher);
+  }
+  ASSERT_EQ(corners.size(), 2u);
+  ASSERT_FALSE(further.empty());
+  EXPECT_GT(std::abs(further.front()), 0.1);
+  EXPECT_NEAR(std::max(corners[0], corners[1]), std::abs(further.front()), 0.5 * std::abs(further.front()));
+  EXPECT_NEAR(corners[0], -corners[1], 0.3 * std::abs(corners[0]));
 }
 
 }  // namespace

@@ -57,12 +57,14 @@ TEST(Validity, BranchesAndCrossingsAreJudgedByTheTensionAlongTheCutTheyMeet) {
 }
 
 TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance) {
-  EXPECT_EQ(tells(two_cuts(pulled(0.01, 0.03), 5, 45, true)[1], "mm beside it"), 1);
-  EXPECT_EQ(tells(two_cuts(pulled(0.01, 0.03), 5, 70, true)[1], "mm beside it"), 0);
+  const auto cause = [](const Validity& v) { return v.expected_error.cause; };
+  EXPECT_NE(cause(two_cuts(pulled(0.01, 0.03), 5, 45, true)[1]).find("mm beside it"), std::string::npos);
+  EXPECT_EQ(cause(two_cuts(pulled(0.01, 0.03), 5, 70, true)[1]).find("mm beside it"), std::string::npos);
   const auto beside = two_cuts(pulled(0.02, 0.02), -2, 90, true);
   EXPECT_FALSE(beside[1].junction_tension);
   EXPECT_EQ(tells(beside[1], "meets another cut"), 0);
-  EXPECT_EQ(tells(beside[1], "another cut is 2 mm beside it"), 1);
+  EXPECT_EQ(cause(beside[1]), "another cut is 2 mm beside it");
+  EXPECT_NEAR(beside[1].expected_error.largest, 0.075, 0.005);
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
 }
 
