@@ -26,9 +26,9 @@ constexpr double of_length = 0.1;  // times the part of the path beyond the cano
 constexpr double of_length_turned = 0.4;
 constexpr double of_neighbour = 0.05, neighbour_reach = 20;  // falls by e over so many mm
 constexpr double of_nearest = 0.08;                          // of one that is nearer than cuts are deep
-/// Where the cut that it meets is pulled alike along and across, or the tension does not turn; up to a third
-/// as hard along as across none.
-constexpr double of_junction = 0.6, pulled_enough = 1. / 3;
+/// Where it meets a cut and the tension does not turn. Otherwise where the cut that it meets is pulled alike
+/// along and across; up to a third as hard along as across none, from 13/9 on 5/3 of it.
+constexpr double of_junction = 0.6, of_junction_turned = 0.3, pulled_enough = 1. / 3, most_pulled = 5. / 3;
 constexpr double of_winding = 0.6;    // mm: times the curvature's difference from that which opens it
 constexpr double of_direction = 0.1;  // a radian: between the path and the direction that opens it
 constexpr double of_loop = 3.3;       // of these two, where the path ends so near to its start, in depths:
@@ -95,7 +95,8 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
   if (n.junction_tension > 0 && !known)
     parts.push_back({of_junction, "it meets another cut, and the tension does not turn with it"});
   else if (n.junction_tension > pulled_enough)
-    parts.push_back({of_junction * std::min(1., (n.junction_tension - pulled_enough) / (1 - pulled_enough)),
+    parts.push_back({of_junction_turned *
+                         std::min(most_pulled, (n.junction_tension - pulled_enough) / (1 - pulled_enough)),
                      "it meets another cut, along which the skin is pulled # times as hard as across it",
                      n.junction_tension});
   return parts;

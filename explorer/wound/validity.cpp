@@ -131,8 +131,12 @@ double length_defect(const VaryingField& field) {
 /// A place of a cut's path on the wound of another.
 struct Junction {
   std::size_t other;
-  double tension;  ///< along the other over across it
-  double sine;     ///< of the angle between the two
+  double tension;   ///< along the other over across it
+  double sine;      ///< of the angle between the two
+  double from_end;  ///< mm: of the own path, to its nearer end
+
+  /// Where it crosses the other at a right angle, all four corners open as the cuts themselves do.
+  bool is_square_crossing(double depth) const { return sine >= least_junction_sine && from_end > depth / 2; }
 };
 
 std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::size_t i) {
@@ -146,7 +150,8 @@ std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::s
       const double across = cuts[j]->field.prestress(&Prestress::vv, s);
       const Vec3 along = cuts[j]->incision->path().at(vertex.s).along;
       found.push_back({j, across > 0 ? cuts[j]->field.prestress(&Prestress::uu, s) / across : infinity,
-                       norm(cross(along, own.path().at(c.s).along))});
+                       norm(cross(along, own.path().at(c.s).along)),
+                       std::min(c.s, own.path().length() - c.s) * cuts[i]->scale()});
     }
   }
   return found;
@@ -207,15 +212,18 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
         nearest_beside = std::min(nearest_beside, apart);
     }
-    for (const Junction& x : junctions[i])
+    double judged = 0;
+    for (const Junction& x : junctions[i]) {
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
+      if (!x.is_square_crossing(field.cut().depth)) judged = std::max(judged, x.tension);
+    }
     const bool known = turned || pulled_alike(field);
     const double against_first = v.junction_tension ? 0 : angle_between(*cuts[0], *cuts[i]);
     const double widest = opening(cuts[i]->field, std::min(length, canonical));
     const double own = turned || !(widest > 0) ? 0 : error_of_gape(field).value_or(0) / widest;
     v.expected_error = opening_error_of(*cuts[i], known,
-                                        {nearest_beside, v.junction_tension.value_or(0), v.length_defect, own,
-                                         field.interpolation.has_value(), against_first,
+                                        {nearest_beside, known ? judged : v.junction_tension.value_or(0),
+                                         v.length_defect, own, field.interpolation.has_value(), against_first,
                                          widest > 0 ? std::max(v.held_back, lips_guarded[i]) / widest : 0});
     const bool several = cuts.size() > 1;
     const std::string which = several ? "cut " + std::to_string(i + 1) + ": " : "";

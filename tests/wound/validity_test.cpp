@@ -50,7 +50,9 @@ TEST(Validity, BranchesAndCrossingsAreJudgedByTheTensionAlongTheCutTheyMeet) {
 
     const auto alike = two_cuts(pulled(0.02, 0.02), to, 90, true);
     EXPECT_EQ(*alike[1].junction_tension, 1);
-    EXPECT_EQ(tells(alike[1], "meets another cut"), 1);
+    // In skin that is pulled alike a T is off by 0.27 at its mouth, an X by 0.02 (tests/truth).
+    EXPECT_EQ(tells(alike[1], "meets another cut"), to == 0 ? 1 : 0);
+    EXPECT_NEAR(alike[1].expected_error.largest, to == 0 ? 0.3 : 0.02, 0.01);
     EXPECT_TRUE(alike[0].warnings.empty());
     EXPECT_EQ(tells(two_cuts(pulled(0.01, 0.03), to, 90, false)[1], "the tension does not turn with it"), 1);
   }
@@ -66,6 +68,11 @@ TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance)
   EXPECT_EQ(cause(beside[1]), "another cut is 2 mm beside it");
   EXPECT_NEAR(beside[1].expected_error.largest, 0.075, 0.005);
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
+}
+
+TEST(Validity, ACrossingAtASlantIsJudgedByTheTensionToo) {
+  EXPECT_NEAR(two_cuts(pulled(0.02, 0.02), 5, 45, true)[1].expected_error.largest, 0.31, 0.01);
+  EXPECT_LT(two_cuts(pulled(0.01, 0.03), 5, 45, true)[1].expected_error.largest, 0.1);
 }
 
 TEST(Validity, ACutThatLiesOtherwiseThanTheFirstIsJudgedByTheAngleWhereTheTensionDoesNotTurn) {
