@@ -174,7 +174,7 @@ TEST_F(SessionTest, OpeningsHaveTheirExpectedErrorBesideThem) {
   say("cut -15,3,0,0,0,1 0,3,0,0,0,1 15,3,0,0,0,1");
   ASSERT_EQ(session_.validity().size(), 2u);
   const double largest = session_.validity()[0].expected_error.largest;
-  EXPECT_GT(largest, 0.1) << "they are 2 mm apart";
+  EXPECT_GT(largest, 0.07) << "they are 2 mm apart";
   EXPECT_NE(session_.note_of(0).find(note + shortest(std::round(100 * largest))), std::string::npos)
       << session_.note_of(0);
   // The lips of the first cut part as the field says in its middle; the second one is made after it.
