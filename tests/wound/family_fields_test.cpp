@@ -89,7 +89,7 @@ TEST(Family, AnArcOpensAsTheCaseOfItsCurvatureInTheTensionAtItsMiddle) {
 /// The case that stands for a place of an arc is seen along the arc, but not beyond where the canonical place
 /// stays in the middle: there is a case for that very place.
 TEST(Family, ALongPathHasCasesForWhereItsCanonicalPlaceStaysInTheMiddle) {
-  const CutFields fields = read_cut_fields(family_file().file(), {1, 1, 0}, {0.03, 0.01});
+  const CutFields fields = read_cut_fields(family_file().file(), SkinTension{{1, 1, 0}, 0.03, 0.01});
   const Cut cut(arc(0.05, 43));
   const Wound wound = fields.wound(cut.incision, 1);
   for (const double s : {10., 33.}) {
