@@ -10,5 +10,7 @@ inline constexpr int field_version = 3;
 inline constexpr int field_version_of_pieces = 4;
 /// Version of either where a residual is in several blocks.
 inline constexpr int field_version_of_blocks = 5;
+/// Version of either where a further quantity has knots of its own.
+inline constexpr int field_version_of_own_knots = 6;
 
 }  // namespace cleft

@@ -24,9 +24,7 @@ namespace {
 
 constexpr double share_of_space = 0.9;      // of the tolerance, for fits of single frames
 constexpr int most_tries = 6;               // of finer knots, where frames between the probes are off
-constexpr double far_off = 2;               // tolerances, of a spline that is worth more bytes
 constexpr double worth_of_more = 0.75;      // what kinks and denser knots must make of an error
-constexpr double worth_of_denser = 0.5;     // what denser knots must make of the errors of quantities
 constexpr double greatest_condition = 1e6;  // of what nodes determine well; mostly 1e3 to 1e5
 constexpr std::size_t most_fewer = 2;       // rungs, for a better condition
 
@@ -290,7 +288,7 @@ Encoded with_quantities(Encoded encoded, const Series& series, const EncodeOptio
     progress("fitting " + data.name);
     std::optional<double> limit;
     if (!options.rung) limit = options.tolerance_of(data.name).limit(scale_of(data));
-    FittedQuantity fitted = fit_quantity(series, number, encoded.field, limit);
+    FittedQuantity fitted = fit_quantity(series, number, encoded.field, limit, progress);
     encoded.field.quantities.push_back(std::move(fitted.quantity));
     encoded.of_quantities.push_back(std::move(fitted.residual));
   }

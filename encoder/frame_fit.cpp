@@ -1,6 +1,7 @@
 #include "encoder/frame_fit.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace cleft {
 
@@ -9,6 +10,7 @@ namespace {
 constexpr double of_middles = 0.03;  // the weight of edges: more bends the opening next to a front
 constexpr double of_middles_open = 0.01, of_middles_at_front = 0.003;  // of lips
 constexpr double of_middles_firm = 0.2;                                // where knots are as close as nodes
+constexpr double of_middles_slight = 0.003;                            // where nodes nearly determine all
 constexpr int enough = 8;  // nodes a control point, in any piece along the cut
 
 /// Where the basis along interpolates: pieces between such knots share no function but at their ends.
@@ -40,6 +42,12 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
       parametrization_(parametrization),
       bases_(bases),
       nodes_(parametrization, bases, series.samples) {
+  if (hold == Hold::slight) {
+    std::vector<std::size_t> all(series.middles.samples.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    add_group(series.middles, all, std::vector<bool>(series.times.size(), true), of_middles_slight);
+    return;
+  }
   std::vector<double> u;
   for (const Sample& sample : series.samples) u.push_back(sample.uvw.x);
   std::sort(u.begin(), u.end());

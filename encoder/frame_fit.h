@@ -19,8 +19,9 @@ namespace cleft {
 /// with a weight that bends it little at the nodes.
 class FrameFit {
  public:
-  /// Whether edges hold the spline as much as close knots need, whatever the data are.
-  enum class Hold { as_usual, firm };
+  /// Whether edges hold the spline as much as close knots need, whatever the data are; or as little as nodes
+  /// need that nearly determine it, which centroids and edges would draw to the means of a wave.
+  enum class Hold { as_usual, firm, slight };
 
   /// Of the places and times of `series`, not of its displacements. Keeps references to `series` and
   /// `parametrization`.

@@ -145,6 +145,12 @@ std::array<BSplineBasis, 4> fixed(const Rung& rung, const FieldGeometry& geometr
           time_basis(rung.time, geometry.domain[3].front, geometry.domain[3].back, frames)};
 }
 
+/// Knots within (from, to), mm, at even distances, as `parameter` of a place has them.
+template <class Parameter>
+void evenly(Knots& knots, double from, double to, int spans, const Parameter& parameter) {
+  for (int i = 1; i < spans; ++i) knots.list.push_back(parameter(from + (to - from) * i / spans));
+}
+
 constexpr int around = 3;  // spans of an angle for each of a height
 
 /// The first rung of a ladder for a series.
@@ -163,6 +169,69 @@ int of_bends(const LadderOf& series) { return series.winds ? 12 : series.bends ?
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames) {
   return parametrization.moves() ? following_tip(rung, parametrization, frames)
                                  : fixed(rung, parametrization.geometry(), frames);
+}
+
+std::array<BSplineBasis, 4> even_bases(const EvenSpans& spans, const Parametrization& parametrization,
+                                       int frames) {
+  const FieldGeometry& geometry = parametrization.geometry();
+  const double last = geometry.domain[3].back, start = geometry.cut.start, tip = geometry.tip.at(last);
+  const bool follows = parametrization.moves();
+  const auto u = [&](double x) { return parametrization.along(x, last).value; };
+  const auto v = [&](double x) { return parametrization.across(x).value; };
+  const auto w = [&](double x) { return parametrization.height(x).value; };
+  std::array<Knots, 3> knots;
+  const auto whole = [&](Knots& list, const Interval& domain, int of_axis, const auto& parameter) {
+    list.repeat(parameter(domain.front), degree + 1);
+    evenly(list, domain.front, domain.back, of_axis, parameter);
+    list.repeat(parameter(domain.back), degree + 1);
+  };
+  const auto [front, back] = geometry.domain[0];
+  const bool starts = follows && start > front, ends = follows && tip < back;
+  if (follows) {
+    if (starts) {
+      knots[0].repeat(0, degree + 1);
+      evenly(knots[0], front, start, spans.before, u);
+    }
+    knots[0].repeat(1, starts ? degree : degree + 1);
+    evenly(knots[0], start, tip, spans.along, u);
+    knots[0].repeat(2, ends ? degree : degree + 1);
+    if (ends) {
+      evenly(knots[0], tip, back, spans.after, u);
+      knots[0].repeat(3, degree + 1);
+    }
+  } else {
+    whole(knots[0], geometry.domain[0], spans.along, u);
+  }
+  if (geometry.cut.length > 0) {
+    knots[1].repeat(v(geometry.domain[1].front), degree + 1);
+    evenly(knots[1], geometry.domain[1].front, 0, spans.across, v);
+    knots[1].repeat(0, degree + 1);
+    evenly(knots[1], 0, geometry.domain[1].back, spans.across, v);
+    knots[1].repeat(v(geometry.domain[1].back), degree + 1);
+  } else {
+    whole(knots[1], geometry.domain[1], spans.across, v);
+  }
+  if (follows) {
+    const double bottom = geometry.domain[2].front, depth = geometry.cut.depth;
+    const bool below = depth < -bottom;
+    if (below) {
+      knots[2].repeat(-2, degree + 1);
+      evenly(knots[2], bottom, -depth, spans.below, w);
+    }
+    knots[2].repeat(-1, below ? degree : degree + 1);
+    evenly(knots[2], below ? -depth : bottom, 0, spans.above, w);
+    knots[2].repeat(0, degree + 1);
+  } else {
+    whole(knots[2], geometry.domain[2], spans.above, w);
+  }
+  Knots time;
+  const int p = std::min(degree, frames - 1);
+  const double from = parametrization.time(geometry.domain[3].front).value,
+               to = parametrization.time(last).value;
+  time.repeat(from, p + 1);
+  evenly(time, from, to, std::clamp(spans.time, 1, frames - p), [](double x) { return x; });
+  time.repeat(to, p + 1);
+  return {knots[0].basis(), knots[1].basis(), knots[2].basis(), time.basis(p)};
 }
 
 std::vector<Rung> ladder_of(const Parametrization& parametrization, const LadderOf& series) {

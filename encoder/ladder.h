@@ -34,6 +34,17 @@ inline constexpr int most_time_spans = 32;
 /// spans in time.
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames);
 
+/// Numbers of spans of bases whose knots are at even distances, mm, whatever the cut does: before its start,
+/// along it and beyond its end; on each side of v = 0 (without a cut: in all); above and below its bottom; in
+/// time.
+struct EvenSpans {
+  int before = 1, along = 1, after = 1, across = 1, above = 1, below = 1, time = 1;
+};
+/// Over a parametrisation that does not change with time (its tip stands still). Breaks are where those of
+/// bases_of(const Rung&, ...) are; spans that its cut does not have are left out.
+std::array<BSplineBasis, 4> even_bases(const EvenSpans& spans, const Parametrization& parametrization,
+                                       int frames);
+
 /// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
 /// trials on a few cuts.
 struct LadderOf {

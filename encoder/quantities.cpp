@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "encoder/at_nodes.h"
+#include "encoder/even_knots.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/series_fit.h"
 #include "encoder/tolerance_shares.h"
@@ -68,19 +69,74 @@ Field shifted(const Field& field, const Eigen::RowVectorXd& by, int first) {
           std::move(points)};
 }
 
-NodeSpline fitted(const Series& series, int number, const Field& field,
-                  const std::shared_ptr<const Parametrization>& parametrization) {
-  const SeriesQuantity& data = series.quantities[number];
-  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+/// Three components of a quantity at a time, in a geometry.
+std::vector<Series> parts_of(const Series& series, const SeriesQuantity& data,
+                             const FieldGeometry& geometry) {
+  std::vector<Series> parts;
+  for (int first = 0; first < data.frames.front().cols(); first += components_at_once) {
+    parts.push_back(series_of(series, data, first));
+    parts.back().geometry = geometry;
+  }
+  return parts;
+}
+
+NodeSpline fitted(const SeriesQuantity& data, int number, const std::vector<Series>& parts,
+                  const std::shared_ptr<const Parametrization>& parametrization,
+                  const std::array<BSplineBasis, 4>& bases, FrameFit::Hold hold) {
   NodeSpline spline{number, static_cast<int>(data.frames.front().cols()), {}};
-  for (int first = 0; first < spline.components; first += components_at_once) {
-    Series part = series_of(series, data, first);
-    part.geometry = parametrization->geometry();
-    const SeriesFit fit(part, parametrization, bases, SeriesFit::Start::any);
+  for (const Series& part : parts) {
+    const SeriesFit fit(part, std::make_shared<FitStore>(part, parametrization, 0, hold), bases,
+                        SeriesFit::Start::any);
+    const int first = components_at_once * static_cast<int>(spline.parts.size());
     spline.parts.push_back(fit.field(fit.control_points()));
     if (!data.middle.isZero(0)) spline.parts.back() = shifted(spline.parts.back(), data.middle, first);
   }
   return spline;
+}
+
+NodeSpline fitted(const Series& series, int number, const Field& field,
+                  const std::shared_ptr<const Parametrization>& parametrization) {
+  const SeriesQuantity& data = series.quantities[number];
+  return fitted(data, number, parts_of(series, data, parametrization->geometry()), parametrization,
+                {field.basis(0), field.basis(1), field.basis(2), field.basis(3)}, FrameFit::Hold::as_usual);
+}
+
+constexpr double share_of_even = 0.7;   // of the limit, for fits of single frames on even knots
+constexpr int fewest_in_time = 8;       // spans, of even knots
+constexpr double worth_of_time = 0.95;  // what more of them must make of an error
+
+struct OnOwnKnots {
+  NodeSpline spline;
+  double misfit;
+};
+
+/// On even knots, with as many spans in time as the limit needs.
+OnOwnKnots on_even_knots(const Series& series, int number, const Parametrization& of_field, double limit,
+                         bool still, const std::function<void(const std::string&)>& progress) {
+  const SeriesQuantity& data = series.quantities[number];
+  const auto parametrization = standing(of_field);
+  const std::vector<Series> parts = parts_of(series, data, parametrization->geometry());
+  const int frames = static_cast<int>(series.times.size());
+  EvenSpans spans =
+      even_spans(parts, parametrization, share_of_even * limit, still ? 1 : fewest_in_time, progress);
+  std::optional<OnOwnKnots> best;
+  for (;; spans.time *= 2) {
+    progress("fitting " + data.name);
+    NodeSpline spline = fitted(data, number, parts, parametrization,
+                               even_bases(spans, *parametrization, frames), FrameFit::Hold::slight);
+    const double misfit = worst_of(spline, series).error;
+    const bool better = !best || misfit < worth_of_time * best->misfit;
+    if (!best || misfit < best->misfit) best = OnOwnKnots{std::move(spline), misfit};
+    if (still || !better || best->misfit <= limit || spans.time >= frames) return std::move(*best);
+  }
+}
+
+/// Knots without control points of their own.
+std::shared_ptr<const Field> knots_alone(const Field& field) {
+  return std::make_shared<const Field>(
+      field.shared_parametrization(),
+      std::array{field.basis(0), field.basis(1), field.basis(2), field.basis(3)},
+      std::vector<Vec3>(field.coefficients().size()));
 }
 
 bool never_changes(const SeriesQuantity& quantity) {
@@ -155,7 +211,8 @@ Series series_of(const Series& series, const SeriesQuantity& quantity, int compo
 }
 
 FittedQuantity fit_quantity(const Series& series, int number, const Field& field,
-                            std::optional<double> limit_of_data) {
+                            std::optional<double> limit_of_data,
+                            const std::function<void(const std::string&)>& progress) {
   const SeriesQuantity& data = series.quantities[number];
   NodeSpline exact = fitted(series, number, field, field.shared_parametrization());
   const double scale = scale_of(data), limit = limit_of_data.value_or(0);
@@ -165,6 +222,15 @@ FittedQuantity fit_quantity(const Series& series, int number, const Field& field
     NodeSpline still = fitted(series, number, field, at_the_end(field.parametrization()));
     if (const double of_still = worst_of(still, series).error; of_still < misfit)
       exact = std::move(still), misfit = of_still, time = series.times.back();
+  }
+  std::shared_ptr<const Field> own;
+  if (limit_of_data && misfit > far_off * limit) {
+    const bool still = never_changes(data);
+    OnOwnKnots even = on_even_knots(series, number, field.parametrization(), limit, still, progress);
+    if (even.misfit <= worth_of_denser * misfit) {
+      exact = std::move(even.spline), misfit = even.misfit, time.reset();
+      own = knots_alone(exact.parts.front());
+    }
   }
   const bool within = misfit <= share_of_fit * limit;
   const double bound = std::max(within ? limit : 1.02 * misfit, finest_bound * scale);
@@ -180,7 +246,7 @@ FittedQuantity fit_quantity(const Series& series, int number, const Field& field
       {data.name, exact.components, coefficients_of(spline), data.largest, worst.error / scale,
        worst.error / scale, step, data.scale, static_cast<double>(worst.node), worst.time},
       {}};
-  result.quantity.time = time;
+  result.quantity.time = time, result.quantity.own = own;
   if (!limit_of_data || worst.error <= limit) return result;
   double largest = 0;
   result.residual = code_left(series, spline, 0, limit, largest);

@@ -1,7 +1,9 @@
-// Further quantities such as stresses or temperatures, on the knots of the displacement.
+// Further quantities such as stresses or temperatures, on the knots of the displacement or on their own.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "encoder/field/field.h"
 #include "encoder/field/node_residual.h"
@@ -21,10 +23,11 @@ struct FittedQuantity {
   std::optional<CodedResidual> residual;  ///< if the spline alone does not satisfy the tolerance
 };
 
-/// Fits quantity `number` of the series over the bases of the field. `limit` bounds the norm of its error at
+/// Fits quantity `number` of the series over the bases of the field; where it is off by more than twice the
+/// limit, and even knots of its own halve that, over these. `limit` bounds the norm of its error at
 /// any node and frame, in its own unit; without one there is no bound and no residual. Control points are
 /// multiples of a quantum that costs a small part of the limit, or of the error.
-FittedQuantity fit_quantity(const Series& series, int number, const Field& field,
-                            std::optional<double> limit);
+FittedQuantity fit_quantity(const Series& series, int number, const Field& field, std::optional<double> limit,
+                            const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

@@ -6,10 +6,6 @@
 
 namespace cleft {
 
-namespace {
-
-/// Whether values at these places determine a spline. Schoenberg and Whitney: one place for each function, in
-/// order, where it does not vanish.
 bool determined(const BSplineBasis& basis, const std::vector<double>& places) {
   const auto& knots = basis.knots();
   const int p = basis.degree();
@@ -25,28 +21,41 @@ bool determined(const BSplineBasis& basis, const std::vector<double>& places) {
   return true;
 }
 
+namespace {
+
+void sort_each_once(std::array<std::vector<double>, 3>& places) {
+  for (std::vector<double>& on_axis : places) {
+    std::sort(on_axis.begin(), on_axis.end());
+    on_axis.erase(std::unique(on_axis.begin(), on_axis.end()), on_axis.end());
+  }
+}
+
 constexpr std::pair<int Rung::*, std::size_t> spans_of_axes[] = {{&Rung::before, 0}, {&Rung::along, 0},
                                                                  {&Rung::after, 0},  {&Rung::across, 1},
                                                                  {&Rung::above, 2},  {&Rung::below, 2}};
 
 }  // namespace
 
-std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
-                            const Parametrization& parametrization, double nodes_at_front) {
+std::array<std::vector<double>, 3> places_on_axes(const Series& series,
+                                                  const Parametrization& parametrization) {
   const double last = series.times.back();
   std::array<std::vector<double>, 3> places;
-  const auto add = [&](const Vec3& uvw) {
-    places[0].push_back(parametrization.along(uvw.x, last).value);
-    places[1].push_back(parametrization.across(uvw.y).value);
-    places[2].push_back(parametrization.height(uvw.z).value);
-  };
-  for (const Sample& sample : series.samples) add(sample.uvw);
-  if (ladder.front().close)  // edges hold the spline
+  for (const Sample& sample : series.samples) {
+    places[0].push_back(parametrization.along(sample.uvw.x, last).value);
+    places[1].push_back(parametrization.across(sample.uvw.y).value);
+    places[2].push_back(parametrization.height(sample.uvw.z).value);
+  }
+  sort_each_once(places);
+  return places;
+}
+
+std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
+                            const Parametrization& parametrization, double nodes_at_front) {
+  std::array<std::vector<double>, 3> places = places_on_axes(series, parametrization);
+  if (ladder.front().close) {  // edges hold the spline
     for (const Sample& sample : series.middles.samples)
       places[1].push_back(parametrization.across(sample.uvw.y).value);
-  for (std::vector<double>& on_axis : places) {
-    std::sort(on_axis.begin(), on_axis.end());
-    on_axis.erase(std::unique(on_axis.begin(), on_axis.end()), on_axis.end());
+    sort_each_once(places);
   }
   // The first rung is always allowed, except for knots in height, where levels of nodes are few.
   Rung least = ladder.front();

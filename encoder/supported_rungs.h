@@ -21,4 +21,13 @@ inline constexpr double nodes_held_firmly = 0.5;
 std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
                             const Parametrization& parametrization, double nodes_at_front = enough_nodes);
 
+/// Whether values at these places, in ascending order, determine a spline: one place for each function, in
+/// order, where it does not vanish (Schoenberg and Whitney).
+bool determined(const BSplineBasis& basis, const std::vector<double>& places);
+
+/// The places of the series' samples on the axes along, across and height at the last time, ascending, each
+/// once.
+std::array<std::vector<double>, 3> places_on_axes(const Series& series,
+                                                  const Parametrization& parametrization);
+
 }  // namespace cleft

@@ -14,6 +14,9 @@ inline constexpr double share_of_close_steps = 0.5;
 inline double bound_of_steps(double bound, double limit) {
   return limit > 0 ? std::min(bound, 10 * limit) : bound;
 }
+/// Tolerances, of a spline that is worth more bytes, and what denser knots must make of the errors of
+/// quantities.
+inline constexpr double far_off = 2, worth_of_denser = 0.5;
 /// Quanta that a coefficient may be moved to need fewer bytes.
 inline constexpr double farthest_move = 0.625;
 /// Least bound for quanta, over the largest value.

@@ -1,4 +1,6 @@
 // What a file of ours says of itself.
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/h5/h5.h"
 #include "base/text.h"
@@ -16,7 +18,8 @@ void require_format(const h5::File& file, const FileFormat& format) {
     throw FileError(file.path(), "is not a " + noun + " (no attribute format = \"" + format.name + "\"); " +
                                      writer + " writes one");
   const double found = file.read_number("/", "version");
-  if (found != format.version && (format.further == 0 || found != format.further))
+  const auto is_it = [&](int version) { return version != 0 && found == version; };
+  if (!is_it(format.version) && std::none_of(format.further.begin(), format.further.end(), is_it))
     throw FileError(file.path(), noun + " format version " + shortest(found) +
                                      "; this program reads version " + std::to_string(format.version) +
                                      ": run " + writer + " again");

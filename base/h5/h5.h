@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -117,8 +118,8 @@ namespace cleft {
 struct FileFormat {
   const char* name;
   int version;
-  const char *noun, *writer;  ///< its name in messages, and the command that writes it
-  int further = 0;            ///< another version that is read; 0: none
+  const char *noun, *writer;        ///< its name in messages, and the command that writes it
+  std::array<int, 2> further = {};  ///< other versions that are read; 0: none
 };
 void write_format(h5::File& file, const FileFormat& format);
 /// Throws FileError if the file has another format or version.

@@ -81,15 +81,18 @@ std::string cause_of(const Field& field, const Series& series, const Place& plac
   return "away from the break the nodes do not determine more knots; refine the mesh there";
 }
 
-/// Of a quantity on the knots of the displacement.
+/// Of a quantity beside a displacement.
 std::string cause_of(const Quantity& quantity) {
+  if (quantity.own)
+    return "it has knots of its own, at even distances, as dense as nodes and frames determine; refine the "
+           "mesh there, or write more frames";
   const std::string knots =
-      "it has the knots of the displacement, which do not follow it there; ask for a "
-      "smaller error of that, which makes knots denser where nodes determine more (--tolerance "
-      "displacement=0.1%)";
+      "neither do the knots of the displacement follow it there, nor even ones of its own, as dense as nodes "
+      "and frames determine; refine the mesh there, or ask for a smaller error of the displacement, whose "
+      "knots are denser then (--tolerance displacement=0.1%)";
   if (quantity.name == Series::at_start)
     return knots + ", or import the series from a frame on in which nothing has moved yet";
-  return knots + ", or import " + quantity.name + " without it, for knots of its own";
+  return knots;
 }
 
 double scale_of(const Quantity& quantity) { return quantity.scale > 0 ? quantity.scale : 1; }

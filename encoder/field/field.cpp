@@ -101,6 +101,10 @@ double Field::contraction_tolerance() const {
 
 void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, std::span<double> out) const {
   const Quantity& q = quantities.at(index);
+  bases_of(q, *this).value(q, uvw, side, t, out);
+}
+
+void Field::value(const Quantity& q, const Vec3& uvw, Side side, double t, std::span<double> out) const {
   const std::size_t components = q.components;
   CLEFT_CHECK(out.size(), ==, components);
   CLEFT_CHECK(q.coefficients.size(), ==, coefficients_.size() * components);
@@ -121,6 +125,10 @@ void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, st
         for (std::size_t l = 0; l < last[3]; ++l)
           for (std::size_t d = 0; d < components; ++d) out[d] += weight * s.weight[3][l] * *c++;
       }
+}
+
+const Field& bases_of(const Quantity& quantity, const Field& field) {
+  return quantity.own ? *quantity.own : field;
 }
 
 double raw_bytes(const Field& field) {

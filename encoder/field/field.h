@@ -32,7 +32,9 @@ struct Derivatives {
   Vec3 value, by_u, by_v, by_w, by_t;
 };
 
-/// A further quantity over the field's bases: its value, not the difference from frame 0.
+class Field;
+
+/// A further quantity over the field's bases, or its own: its value, not the difference from frame 0.
 struct Quantity {
   std::string name;
   int components = 1;
@@ -46,6 +48,9 @@ struct Quantity {
   double worst_node = 0, worst_time = 0;  ///< where spline_error is
   double between_nodes = 0;               ///< as FitReport has it, over `scale`
   std::optional<double> time = {};        ///< of what never changes: it is the spline at this time, always
+  /// Where it has knots of its own: a field without a displacement on these, whose tip stands at its last
+  /// place.
+  std::shared_ptr<const Field> own = {};
 };
 
 /// The derivative of the displacement by a parameter of the case, over the field's bases, for interpolation
@@ -130,6 +135,8 @@ class Field {
   friend class CollapsedField;
 
   BasisPlace mapped(const Vec3& uvw, Side side, double t) const;
+  /// Of a quantity over these bases.
+  void value(const Quantity& quantity, const Vec3& uvw, Side side, double t, std::span<double> out) const;
   void contract_fixed(const BasisPlace& place, double until, std::span<const double> stops,
                       History& out) const;
   void contract_moving(const Vec3& uvw, const BasisPlace& place, double until, double tolerance,
@@ -143,6 +150,9 @@ class Field {
   const KernelTable* kernels_;
   double largest_coefficient_ = 0;
 };
+
+/// The field over whose bases a quantity is.
+const Field& bases_of(const Quantity& quantity, const Field& field);
 
 /// Bytes of the data, displacements (unless nothing moves) and further quantities, as 32-bit numbers.
 double raw_bytes(const Field& field);

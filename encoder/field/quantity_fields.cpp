@@ -15,15 +15,16 @@ constexpr std::size_t at_once = 3;
 QuantityFields::QuantityFields(const Field& field, std::size_t index) {
   const Quantity& quantity = field.quantities.at(index);
   components_ = static_cast<std::size_t>(quantity.components), time_ = quantity.time;
-  const std::size_t points = field.coefficients().size();
+  const Field& over = bases_of(quantity, field);
+  const std::size_t points = over.coefficients().size();
   CLEFT_CHECK(quantity.coefficients.size(), ==, points * components_);
   for (std::size_t first = 0; first < components_; first += at_once) {
     std::vector<Vec3> some(points);
     for (std::size_t n = 0; n < points; ++n)
       for (std::size_t c = first; c < std::min(first + at_once, components_); ++c)
         some[n][static_cast<int>(c - first)] = quantity.coefficients[n * components_ + c];
-    parts_.emplace_back(field.shared_parametrization(),
-                        std::array{field.basis(0), field.basis(1), field.basis(2), field.basis(3)},
+    parts_.emplace_back(over.shared_parametrization(),
+                        std::array{over.basis(0), over.basis(1), over.basis(2), over.basis(3)},
                         std::move(some));
   }
 }

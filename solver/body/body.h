@@ -14,7 +14,7 @@
 namespace cleft {
 
 /// Version 2: with regions.
-inline constexpr FileFormat body_format{"cleft-body", 1, "body", "cleft body", 2};
+inline constexpr FileFormat body_format{"cleft-body", 1, "body", "cleft body", {2}};
 
 /// What holds a face of the tissue's lower side.
 enum class Support : std::uint8_t { springs = 0, bone = 1 };

@@ -119,7 +119,7 @@ void write_body(const std::string& path, Body& b) {
   OutputFile out(path);
   h5::File file = h5::File::create(out.path());
   FileFormat format = body_format;
-  if (!b.materials.empty()) format.version = body_format.further;
+  if (!b.materials.empty()) format.version = body_format.further[0];
   write_format(file, format);
   file.write_text("/", "units", "mm");
   file.write_text("/", "body", b.hash);

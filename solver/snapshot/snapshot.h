@@ -19,7 +19,7 @@
 namespace cleft {
 
 /// Version 2: with several breaks.
-inline constexpr FileFormat snapshot_format{"cleft-snapshot", 1, "snapshot", "cleft solve", 2};
+inline constexpr FileFormat snapshot_format{"cleft-snapshot", 1, "snapshot", "cleft solve", {2}};
 
 /// The placement of imported data: (u, v, w) = axes (x - origin) for a point x in the space of the source.
 struct SnapshotSource {

@@ -91,7 +91,7 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
                                const std::vector<SnapshotArray>& arrays)
     : out_(path), file_(h5::File::create(out_.path())), points_(s.points.size()) {
   FileFormat format = snapshot_format;
-  if (!s.pieces.empty()) format.version = snapshot_format.further;
+  if (!s.pieces.empty()) format.version = snapshot_format.further[0];
   write_format(file_, format);
   file_.write_text("/", "units", "mm N MPa");
   file_.write_text("/", "case", s.case_hash);

@@ -62,9 +62,26 @@ void append(std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& m
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
+std::array<BSplineBasis, 4> all_bases(const Field& field) {
+  return {field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+}
+
+/// Knots, and what they tie.
+struct Knots {
+  std::array<BSplineBasis, 4> bases;
+  ControlTies ties;
+};
+Knots knots_in(const Field& field) {
+  const std::array<BSplineBasis, 4> bases = all_bases(field);
+  return {bases, ties_of(field.parametrization().name(), bases)};
+}
+
 void append_quantity(Json& list, std::vector<std::uint8_t>& bytes, const Quantity& quantity,
-                     const ControlTies& ties, const std::array<BSplineBasis, 4>& bases) {
+                     const Knots& of_field) {
   Json entry = figures_of(quantity);
+  if (quantity.own) entry["own"] = knots_of(*quantity.own);
+  const Knots own = quantity.own ? knots_in(*quantity.own) : of_field;
+  const auto& [bases, ties] = own;
   if (quantity.quantum == 0) {
     append_planes(bytes, std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
   } else {
@@ -78,8 +95,8 @@ void append_quantity(Json& list, std::vector<std::uint8_t>& bytes, const Quantit
   list.push_back(entry);
 }
 
-Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, const ControlTies& ties,
-                       const std::array<BSplineBasis, 4>& bases) {
+Quantity take_quantity(const Json& header, const Json& entry, std::span<const std::uint8_t>& bytes,
+                       const Knots& of_field) {
   Quantity quantity{entry.at("name").get<std::string>(),
                     count_from(entry.at("components")),
                     {},
@@ -95,6 +112,9 @@ Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, 
   if (entry.contains("time")) quantity.time = finite_member(entry, "time");
   if (entry.contains("between_nodes")) quantity.between_nodes = finite_member(entry, "between_nodes");
   quantity.scale = entry.contains("scale") ? finite_member(entry, "scale") : quantity.largest;
+  if (entry.contains("own")) quantity.own = own_knots(header, entry.at("own"), bytes.size());
+  const Knots own = quantity.own ? knots_in(*quantity.own) : of_field;
+  const auto& [bases, ties] = own;
   const std::size_t components = quantity.components;
   const std::size_t count = components * control_points_of(bases);
   if (!entry.contains("quantum")) {
@@ -169,12 +189,11 @@ CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
 
 void append_extras(Json& header, std::vector<std::uint8_t>& bytes, const Field& field) {
   if (field.quantities.empty() && field.by_parameter.empty()) return;
-  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
-  const ControlTies ties = ties_of(field.parametrization().name(), bases);
+  const Knots knots = knots_in(field);
   for (const Quantity& quantity : field.quantities)
-    append_quantity(header["quantities"], bytes, quantity, ties, bases);
+    append_quantity(header["quantities"], bytes, quantity, knots);
   for (const ParameterDerivative& one : field.by_parameter) {
-    const CodedPoints coded = coded_points(one.control_points, ties, bases, one.quantum);
+    const CodedPoints coded = coded_points(one.control_points, knots.ties, knots.bases, one.quantum);
     header["by_parameter"].push_back({{"parameter", one.parameter},
                                       {"quantum", one.quantum},
                                       {"slices", coded.slices},
@@ -189,7 +208,7 @@ FieldExtras take_extras(const Json& header, std::span<const std::uint8_t>& bytes
                         const std::array<BSplineBasis, 4>& bases) {
   FieldExtras extras;
   if (!header.contains("quantities") && !header.contains("by_parameter")) return extras;
-  const ControlTies ties = ties_of(header.at("parametrization").get<std::string>(), bases);
+  const Knots knots{bases, ties_of(header.at("parametrization").get<std::string>(), bases)};
   const auto reversed = [&](const char* name, const auto& take) {
     if (!header.contains(name)) return;
     const Json& list = header.at(name);
@@ -200,10 +219,11 @@ FieldExtras take_extras(const Json& header, std::span<const std::uint8_t>& bytes
     one.parameter = entry.at("parameter").get<std::string>(), one.quantum = positive(entry, "quantum");
     one.largest = finite_member(entry, "largest"), one.error = finite_member(entry, "error");
     one.control_points = decoded(take_bytes(bytes, static_cast<std::size_t>(count_from(entry.at("bytes")))),
-                                 count_from(entry.at("slices")), one.quantum, bases, ties);
+                                 count_from(entry.at("slices")), one.quantum, knots.bases, knots.ties);
   });
-  reversed("quantities",
-           [&](const Json& entry) { extras.quantities.push_back(take_quantity(entry, bytes, ties, bases)); });
+  reversed("quantities", [&](const Json& entry) {
+    extras.quantities.push_back(take_quantity(header, entry, bytes, knots));
+  });
   std::reverse(extras.quantities.begin(), extras.quantities.end());
   std::reverse(extras.by_parameter.begin(), extras.by_parameter.end());
   return extras;

@@ -13,10 +13,16 @@ namespace cleft {
 
 namespace {
 
-const FileFormat field_format{"cleft-field", field_version, "field file", "cleft encode",
-                              field_version_of_blocks};
-const FileFormat pieces_format{"cleft-field", field_version_of_pieces, "field file", "cleft encode",
-                               field_version_of_blocks};
+const FileFormat field_format{"cleft-field",
+                              field_version,
+                              "field file",
+                              "cleft encode",
+                              {field_version_of_blocks, field_version_of_own_knots}};
+const FileFormat pieces_format{"cleft-field",
+                               field_version_of_pieces,
+                               "field file",
+                               "cleft encode",
+                               {field_version_of_blocks, field_version_of_own_knots}};
 
 /// A file of one field, open.
 h5::File open_field(const std::string& path) {
@@ -123,9 +129,17 @@ bool any_in_blocks(const CodedResidual* residual, Residuals of_quantities) {
          std::any_of(of_quantities.begin(), of_quantities.end(), in_blocks);
 }
 
-h5::File created(const std::string& path, FileFormat format, bool blocks) {
+bool has_own_knots(const Field& field) {
+  return std::any_of(field.quantities.begin(), field.quantities.end(),
+                     [](const Quantity& quantity) { return quantity.own != nullptr; });
+}
+
+h5::File created(const std::string& path, FileFormat format, bool blocks, bool own_knots) {
   h5::File file = h5::File::create(path, h5::Growth::none);
-  if (blocks) format.version = field_version_of_blocks;
+  if (own_knots)
+    format.version = field_version_of_own_knots;
+  else if (blocks)
+    format.version = field_version_of_blocks;
   write_format(file, format);
   file.write_text("/", "units", "mm N MPa");
   return file;
@@ -180,7 +194,8 @@ std::optional<NodeResidual> decoded_if_any(const std::optional<CodedResidual>& r
 void write_field(const std::string& path, const Field& field, const CodedResidual* residual,
                  Residuals of_quantities) {
   OutputFile out(path);
-  h5::File file = created(out.path(), field_format, any_in_blocks(residual, of_quantities));
+  h5::File file =
+      created(out.path(), field_format, any_in_blocks(residual, of_quantities), has_own_knots(field));
   write_into(file, "", field, residual, of_quantities);
   file.close();
   out.commit();
@@ -195,7 +210,9 @@ void write_pieces(const std::string& path, const std::vector<Encoded>& pieces, s
   const bool blocks = std::any_of(pieces.begin(), pieces.end(), [](const Encoded& piece) {
     return any_in_blocks(piece.residual ? &*piece.residual : nullptr, piece.of_quantities);
   });
-  h5::File file = created(out.path(), pieces_format, blocks);
+  const bool own_knots = std::any_of(pieces.begin(), pieces.end(),
+                                     [](const Encoded& piece) { return has_own_knots(piece.field); });
+  h5::File file = created(out.path(), pieces_format, blocks, own_knots);
   file.write_number("/", "pieces", static_cast<double>(pieces.size()));
   file.write_number("/", "nodes", static_cast<double>(nodes));
   for (std::size_t p = 0; p < pieces.size(); ++p)

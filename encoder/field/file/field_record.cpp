@@ -297,6 +297,23 @@ FieldRecord record_of(const Field& field) {
   return record;
 }
 
+Json knots_of(const Field& own) {
+  Json entry{{"parametrization", own.parametrization().name()}};
+  put_bases(entry, bases_of(own));
+  return entry;
+}
+
+std::shared_ptr<const Field> own_knots(const Json& header, const Json& entry, std::size_t bytes) {
+  const std::array<BSplineBasis, 4> bases = bases_of(entry);
+  FieldGeometry geometry = geometry_of(header);
+  check_break(bases[1], geometry.cut);
+  std::fill(geometry.tip.positions.begin(), geometry.tip.positions.end(), geometry.tip.positions.back());
+  std::vector<Vec3> none(count_of(bases, bytes));
+  return std::make_shared<const Field>(
+      make_parametrization(entry.at("parametrization").get<std::string>(), std::move(geometry)), bases,
+      std::move(none));
+}
+
 UnknownPlaces unknown_places(const Json& header, std::size_t bytes) {
   return reading([&] {
     const std::array<BSplineBasis, 4> bases = bases_of(header);

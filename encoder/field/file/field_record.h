@@ -21,6 +21,10 @@ struct FieldRecord {
 FieldRecord record_of(const Field& field);
 /// What headers and reports tell of a quantity.
 Json figures_of(const Quantity& quantity);
+/// The knots that a quantity has of its own; and a field on them, of an entry of the header, that codes no
+/// more control points than so many bytes hold.
+Json knots_of(const Field& own);
+std::shared_ptr<const Field> own_knots(const Json& header, const Json& entry, std::size_t bytes);
 /// A header without bytes, from that of another field; its unknowns, on these bases and in this number of
 /// slices of t, must be passed to field_of().
 FieldRecord record_of_sum(const Json& header, const std::array<BSplineBasis, 4>& bases, int slices);
