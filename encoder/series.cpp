@@ -9,6 +9,7 @@
 #include "base/sets.h"
 #include "base/text.h"
 #include "encoder/break_ends.h"
+#include "encoder/front_places.h"
 #include "encoder/own_coordinates.h"
 #include "encoder/series_samples.h"
 #include "solver/snapshot/cell_types.h"
@@ -62,7 +63,7 @@ bool goes_on(const Snapshot& s) {
          s.released[s.frames() / late] > 0;
 }
 
-FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
+FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts, const OpenPairs* open) {
   FieldGeometry g;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [least, greatest] = std::minmax_element(
@@ -77,7 +78,8 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   if (const auto own = own_domain(s)) g.domain[0] = (*own)[0], g.domain[1] = (*own)[1];
   g.domain[3] = {s.times.front(), s.times.back()};
   if (goes_on(s)) g.domain[0].back = std::max(g.domain[0].back, s.source->break_extent[1] + s.cut_depth);
-  const BreakEnds ends = break_ends(s, parts, {g.domain[0], g.domain[1], g.domain[2]});
+  BreakEnds ends = break_ends(s, parts, {g.domain[0], g.domain[1], g.domain[2]});
+  if (open && ends.tip.front() < ends.tip.back()) place_fronts(ends.tip, *open);
   g.cut = ends.cut;
   g.domain[0].back = std::max(g.domain[0].back, ends.reach);
   // A closed cut ends where it begins, at nodes whose u is that of its start.
@@ -342,7 +344,9 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   if (s.source)
     add_start(quantities, closed, s.frames(), largest_displacement, taken, at_nodes, node_samples().size());
   derivatives = derivatives_of(reader, taken);
-  geometry = geometry_of(s, parted(pairs, frames, largest_displacement));
+  const OpenPairs open{samples, pairs, released, frames};
+  const bool told = s.source && !s.counting && largest_displacement > 0;
+  geometry = geometry_of(s, parted(pairs, frames, largest_displacement), told ? &open : nullptr);
   if (s.counting && s.source && s.source->break_extent.size() >= 8)
     front_kinks = cleft::front_kinks(geometry, s.source->break_extent, times);
 }

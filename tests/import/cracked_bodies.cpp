@@ -168,6 +168,22 @@ std::vector<CrackedBody> cracked_bodies() {
                 x.z + 0.03 * std::sin(1.3 * x.x) * (1 + x.z / 6)};
   }));
 
+  CrackedBody within = named(edge_crack(), "its front within the elements, coarse");
+  within.a = planes(0, 24, 24), within.b = planes(-12, 12, 24), within.c = planes(-4, 0, 4);
+  within.times = planes(0, 8, 8);
+  within.doubled = [](const Vec3& x) { return x.x < 14; };
+  within.displacement = [](const Vec3& x, int side, double t) {
+    return 0.01 * t * beside_front(x.x - 1.5 * t - 0.7, x.y, side);
+  };
+  rows.push_back(within);
+  CrackedBody stops = named(edge_crack(), "stops within an element, and goes on faster");
+  stops.c = planes(-4, 0, 4);
+  stops.times = {0, 0.1, 0.5, 1, 2, 3, 4, 6, 8, 9, 9.5, 10, 11, 12};
+  stops.displacement = [](const Vec3& x, int side, double t) {
+    return 0.01 * t * beside_front(x.x - std::min(2 * t, 8.) - 3 * std::max(0., t - 9) - 0.6, x.y, side);
+  };
+  rows.push_back(stops);
+
   CrackedBody notch = named(edge_crack(), "crack from a notch root");
   notch.solid = [](const Vec3& x) { return x.x > 6 || std::abs(x.y) > 2; };
   notch.doubled = [](const Vec3& x) { return 6 <= x.x && x.x < 24; };
