@@ -123,6 +123,22 @@ SourceArray composed(const std::vector<Component>& components, std::vector<Sourc
   return all;
 }
 
+std::string recorded_source(const std::string& source, const std::vector<Component>& components) {
+  if (components.size() != 1 || components.front().column >= 0) return source;
+  std::string recorded;
+  for (const char c : source) recorded += c == '+' ? std::string("++") : std::string(1, c);
+  return recorded;
+}
+
+std::string array_recorded(const std::string& source) {
+  std::string array;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    array += source[i];
+    if (source.compare(i, 2, "++") == 0) ++i;
+  }
+  return array;
+}
+
 std::vector<WrittenComponent> written_components(const std::string& source, int components) {
   const std::vector<std::string> terms = terms_of(source);
   const std::size_t count = terms.size();

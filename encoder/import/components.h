@@ -26,6 +26,11 @@ std::vector<Component> components_of(std::string& source, const std::vector<std:
 SourceArray composed(const std::vector<Component>& components, std::vector<SourceArray> arrays,
                      const std::string& source);
 
+/// The source of a field with these components as the field's file records it: with each "+" of an array's
+/// own name twice, which tells it from those between arrays. And the name of an array so recorded.
+std::string recorded_source(const std::string& source, const std::vector<Component>& components);
+std::string array_recorded(const std::string& source);
+
 /// A component of a field that is written back: its array, and which of the field's numbers it is.
 struct WrittenComponent {
   std::string array;

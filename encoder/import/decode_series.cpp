@@ -184,7 +184,7 @@ std::vector<DecodedValues> as_they_were(std::vector<DecodedValues> all) {
       for (auto i = static_cast<std::size_t>(place); i < values.numbers.size(); i += components)
         one.numbers.push_back(values.numbers[i]);
     }
-    if (written.empty()) apart.push_back(std::move(values));
+    if (written.empty()) values.name = array_recorded(values.name), apart.push_back(std::move(values));
   }
   return apart;
 }

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "encoder/import/boundary.h"
 #include "encoder/import/break_surface.h"
+#include "encoder/import/components.h"
 #include "solver/snapshot/break_front.h"
 
 namespace cleft {
@@ -124,7 +125,7 @@ Placed snapshot_of(const ImportedSeries& series, const SourceMesh& mesh, const B
       SnapshotSource{std::filesystem::path(series.path()).filename().string(), placement.origin,
                      placement.axes, series.times().front(), found.plane ? text_of(*found.plane) : "none"};
   for (const SeriesField& field : series.fields())
-    s.source->fields.push_back(field.source + ":" + field.name +
+    s.source->fields.push_back(recorded_source(field.source, field.arrays) + ":" + field.name +
                                (field.unit.empty() ? "" : "[" + field.unit + "]"));
   const std::vector<bool> at_front = front_of(s, found);
   result.map = given ? given->map : map_of(s, mesh, found, at_front, in_plane(mesh), is_flat);

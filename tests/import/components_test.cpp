@@ -88,6 +88,18 @@ TEST_F(Components, ComeBackAsArraysOfTheirOwn) {
   }
 }
 
+TEST_F(Components, AnArrayWhoseNameIsASumComesBackAsOne) {
+  SourceSeries series = with({{whole.fields[0]}, {whole.fields[0]}, {whole.fields[2]}});
+  series.fields[1].name = "a+b", series.fields[2].name = "c++d+";
+  import(series, "displacement,a+b:flow,c++d+:warmth", "sum");
+  expect_success(run_cleft("encode", {h5("sum"), "--tolerance", "0.1", "--out", folder / "sum.dffd"}));
+  expect_success(
+      run_cleft("decode", {folder / "sum.dffd", "--nodes", h5("sum"), "--out", folder / "back.pvd"}));
+  std::vector<std::string> names = open_series({folder / "back.pvd"})->point_arrays(0);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"a+b", "c++d+", "displacement"}));
+}
+
 TEST_F(Components, TwoAreAVectorInThePlane) {
   SourceSeries::Field flow{"flow", 2, {}};
   for (std::size_t j = 0; j < Plate::frames; ++j) flow.frames.emplace_back(2 * whole.mesh.points.size(), 3.);
