@@ -169,7 +169,10 @@ class EvenSearch {
 
 std::shared_ptr<const Parametrization> standing(const Parametrization& parametrization) {
   FieldGeometry geometry = parametrization.geometry();
-  std::fill(geometry.tip.positions.begin(), geometry.tip.positions.end(), geometry.tip.positions.back());
+  // At the end of the cut, a column of nodes; its last front may be within the elements before (own_knots()).
+  std::fill(geometry.tip.positions.begin(), geometry.tip.positions.end(),
+            std::clamp(geometry.cut.start + geometry.cut.length, geometry.tip.positions.back(),
+                       std::max(geometry.domain[0].back, geometry.tip.positions.back())));
   return make_parametrization(parametrization.moves() ? "tip" : parametrization.name(), std::move(geometry));
 }
 
