@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "explorer/incision/near_ends.h"
 
 namespace cleft::stress {
 
@@ -53,7 +54,8 @@ class Opening {
                           return first <= c && c < first + count;
                         });
     CutMesh mesh(subject_.mesh);
-    std::vector<std::unique_ptr<Incision>> cuts;
+    std::vector<ScalpelPath> paths;
+    std::vector<bool> refined;
     std::optional<ScalpelPath> earlier;
     std::string kinds;
     PathKind kind{};
@@ -64,13 +66,18 @@ class Opening {
         kind = earlier ? PathKind::across : static_cast<PathKind>(own() % 2);  // straight, wavy
       if (earlier && own() % 2 == 0) kind = PathKind::across;
       std::optional<ScalpelPath> path = random_path(ground_, kind, earlier, own);
-      const bool refined = own() % 2 == 0;
+      const bool refines = own() % 2 == 0;
       ++tally_.cuts;
       if (!path || !wanted) continue;
       kinds += (kinds.empty() ? "" : " + ") + name_of(kind);
-      if (auto cut = make(mesh, *path, scale, refined)) cuts.push_back(std::move(cut));
+      paths.push_back(*path), refined.push_back(refines);
       earlier = path;
     }
+    // As all commands do.
+    paths = with_near_ends_joined(std::move(paths), narrowest_bridge / scale).paths;
+    std::vector<std::unique_ptr<Incision>> cuts;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (auto cut = make(mesh, paths[i], scale, refined[i])) cuts.push_back(std::move(cut));
     if (!wanted || cuts.empty() || (plan_.crossing && cuts.size() < 2)) return;
     ++tally_.groups, ++tally_.of[static_cast<std::size_t>(kind)];
     open(cuts, kind, scale, subject_.name + ", cut " + std::to_string(first) + " (" + kinds + ")", begin);
