@@ -45,12 +45,13 @@ struct EncodeOptions {
 
 /// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
 /// displacements from frame 0, by regularised least squares over all frames. Coefficients are multiples of
-/// field.quantum. Further quantities of the series are fitted on the knots of the displacement, on even ones of
-/// their own where one is off by more than twice its tolerance and halves that with them, or else on denser
-/// ones for all fields; if nothing moves, on those that they need; the tolerance bounds each relative to its own largest value. Derivatives by
-/// parameters are fitted on the same knots, without a bound. Without a cut there is no break, and the
-/// parametrisation is "fixed". `progress` is called with the current step. `store`: made with the same
-/// options for series of these places and times, so that what depends on them alone is computed once.
+/// field.quantum. Further quantities of the series are fitted on the knots of the displacement, on even ones
+/// of their own where one is off by more than twice its tolerance and halves that with them, or else on
+/// denser ones for all fields; if nothing moves, on those that they need; the tolerance bounds each relative
+/// to its own largest value. Derivatives by parameters are fitted on the same knots, without a bound. Without
+/// a cut there is no break, and the parametrisation is "fixed". `progress` is called with the current step.
+/// `store`: made with the same options for series of these places and times, so that what depends on them
+/// alone is computed once.
 Encoded encode(const Series& series, const EncodeOptions& options,
                const std::function<void(const std::string&)>& progress,
                std::shared_ptr<FitStore> store = nullptr);
