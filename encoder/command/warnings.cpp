@@ -86,7 +86,7 @@ std::string cause_of(const Quantity& quantity) {
   if (quantity.own)
     return "it has knots of its own, at even distances, as dense as nodes and frames determine; refine the "
            "mesh there, or write more frames";
-  const std::string knots =
+  std::string knots =
       "neither do the knots of the displacement follow it there, nor even ones of its own, as dense as nodes "
       "and frames determine; refine the mesh there, or ask for a smaller error of the displacement, whose "
       "knots are denser then (--tolerance displacement=0.1%)";
