@@ -112,9 +112,8 @@ class Relief {
 };
 
 /// The amplitudes of all cuts at each position of the blade, mm of the path of the last one, with the others
-/// complete. All 1 for a single cut, and of fields
-/// that do not open. Throws InputError if a field lacks the skin's prestress across
-/// the cut.
+/// complete. All 1 for a single cut, and of fields that do not open. Throws InputError if a field lacks the
+/// skin's prestress across the cut.
 std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
                                                   const std::vector<double>& blades);
 

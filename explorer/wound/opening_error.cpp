@@ -19,6 +19,9 @@ constexpr double of_bend = 7.2;           // mm: times the curvature, where the 
 constexpr double of_bend_turned = 25;     // mm^2: times its square, where it does
 constexpr double of_tilt = 0.07;          // at 45 degrees, with the square of the tilt
 constexpr double of_tilt_family = 0.035;  // likewise
+/// mm, times the path's curvature, and mm^2, times those of path and skin: of a tilt of 45 degrees, with its
+/// square, in a family, which knows each two of these together at most.
+constexpr double of_tilted_bend = 1.4, of_tilted_bend_in_curved_skin = 75;
 constexpr double of_shallow = 0.27, of_deep = 0.16;  // times the logarithm of depth over the canonical one
 constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: times the skin's curvatures
 constexpr double of_length = 0.1;  // times the part of the path beyond the canonical cut
@@ -120,6 +123,11 @@ Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const
                      "the path bends with a radius of # mm, and the tension does not turn with it", radius});
   parts.push_back({(cut.followed.tilt ? of_tilt_family : of_tilt) * square(local.tilt / degrees_45),
                    "the blade is tilted by # degrees", local.tilt});
+  if (cut.followed.tilt && cut.followed.bend)
+    parts.push_back({(of_tilted_bend + of_tilted_bend_in_curved_skin *
+                                           std::max(std::abs(local.skin_u), std::abs(local.skin_v))) *
+                         std::abs(local.curvature) * square(local.tilt / degrees_45),
+                     "the path bends, and the blade is tilted by # degrees", local.tilt});
   if (!cut.followed.depth) {
     const double deeper = std::log(std::max(local.depth, 1e-3) / canonical.depth);
     parts.push_back({std::max(-of_shallow * deeper, of_deep * deeper),
