@@ -363,8 +363,8 @@ TEST(Family, WhatItDoesNotFollowIsJudgedAsOfOneField) {
 TEST(Family, TiltsAndBendsTogetherAreKnownLess) {
   const CutFields fields = read_cut_fields(family_file().file(), SkinTension{{0, 1, 0}, 0.02, 0.02});
   const auto error = [&](double curvature, double tilt, double of_skin) {
-    const SurfaceMesh skin =
-        grid(60, 60, -30, -30, 1, [of_skin](double x, double y) { return -of_skin / 2 * (x * x + y * y); });
+    SurfaceMesh skin = grid(60, 60, -30, -30, 1);
+    for (Vec3& p : skin.points) p.z = -of_skin / 2 * (p.x * p.x + p.y * p.y);
     std::vector<ScalpelPath::Point> points;
     for (const Vec3& p : arc(curvature, 30)) {
       const double height = -of_skin / 2 * (p.x * p.x + p.y * p.y);
