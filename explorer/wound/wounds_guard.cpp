@@ -33,6 +33,8 @@ constexpr std::size_t most_moments = 200000;
 /// Of the largest opening: what a field turns itself in its own flat patch is not worth lips that are held
 /// back by more for good, but where cuts meet.
 constexpr double worth_an_excuse = 0.02;
+/// Of the depth: cuts that are nearer to each other all but meet.
+constexpr double nearly_meeting = 1. / 3;
 }  // namespace
 
 /// The positions of the blade at which the skin is looked at: even ones of all the skin, and further ones of
@@ -122,13 +124,21 @@ class Wounds::GuardLooks {
     }
   }
 
-  /// Whether cuts cross or meet each other.
+  /// Whether cuts cross or meet each other, or nearly do.
   bool meet() const {
     for (std::size_t k = 0; k < wounds_.size(); ++k)
       for (const Incision::ChainVertex& c : wounds_[k].incision->chain())
         for (std::size_t j = 0; j < wounds_.size(); ++j)
-          if (j != k && mesh_.vertex(c.left).cut == wounds_[j].incision->cut()) return true;
+          if (j != k &&
+              (mesh_.vertex(c.left).cut == wounds_[j].incision->cut() || is_next_to(c.left, wounds_[j])))
+            return true;
     return false;
+  }
+
+  static bool is_next_to(int vertex, const Wound& cut) {
+    const auto at = cut.volume.locate(vertex);
+    return at && at->s > 0 && at->s < cut.reached() &&
+           std::abs(at->uvw.y) < nearly_meeting * cut.field.shape().cut().depth;
   }
 
   Relief::At relief_at(const Blade& blade) const {
