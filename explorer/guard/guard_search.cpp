@@ -44,7 +44,7 @@ bool GuardSearch::find() {
   find_neighbors();
   measure_triangles();
   check_all();
-  if (field_is_to_blame()) return false;
+  if (field_.alone && field_is_to_blame()) return false;
   find_delicate();
   find_means();
   only_lasting_ = true;

@@ -32,6 +32,7 @@ class GuardSearch {
     std::function<bool(int a, int b, double jump)> stretches;    ///< an edge; jump in mesh units
     std::function<bool(int a, int b, double jump)> draws_apart;  ///< by nearly as much, where it lies alike
     std::function<bool(int left, std::size_t time)> closes;      ///< lips: moves them into each other
+    bool alone = true;  ///< of one cut: what several turn together no field turns in its own patch
   };
 
   /// mm: neighbours that move apart by no more are never torn, and lips pass each other by no more.

@@ -52,7 +52,8 @@ class Wounds::GuardLooks {
                 {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
                  [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
                  [this](int a, int b, double jump) { return wounds_.drawn_apart_by_field(a, b, jump); },
-                 [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }},
+                 [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); },
+                 wounds.size() == 1},
                 poll),
         place_(mesh_.vertices().size(), -1) {
     for (std::size_t k = 0; k < wounds.size(); ++k) {

@@ -254,6 +254,26 @@ TEST(GuardSearch, HoldsNothingForGoodForWhatIsUnsoundForAMoment) {
   }
 }
 
+/// A field that turns much of its own patch over is left to do so. What several cuts turn together, none of
+/// them does alone: then the skin is held.
+TEST(GuardSearch, BlamesTheFieldOfASingleCutAlone) {
+  const CutMesh mesh(grid(10, 10, 0, 0, 1));
+  for (const bool alone : {true, false}) {
+    GuardSearch search(
+        mesh, 0.05,
+        {[](int, std::size_t) { return true; }, [](int, int, double) { return true; },
+         [](int, int, double) { return true; }, [](int, std::size_t) { return false; }, alone});
+    std::vector<std::pair<int, Vec3>> moved;
+    for (int v = 0; v < 121; ++v) moved.push_back({v, {v % 2 == 0 ? 1.5 : -1.5, 0, 0}});
+    search.add(moved, true);
+    ASSERT_EQ(search.find(), !alone);
+    if (alone) continue;
+    EXPECT_TRUE(search.is_excused());
+    search.hold_excused();
+    EXPECT_FALSE(search.result().empty());
+  }
+}
+
 TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
   Opened opened(grid(60, 40, -30, -20, 1));
   for (const double y : {-0.25, 0.25}) opened.cut(path_through({{-15, y, 0}, {15, y, 0}}, up, 3));
