@@ -264,6 +264,7 @@ TEST(GuardSearch, BlamesTheFieldOfASingleCutAlone) {
         {[](int, std::size_t) { return true; }, [](int, int, double) { return true; },
          [](int, int, double) { return true; }, [](int, std::size_t) { return false; }, alone});
     std::vector<std::pair<int, Vec3>> moved;
+    moved.reserve(121);
     for (int v = 0; v < 121; ++v) moved.push_back({v, {v % 2 == 0 ? 1.5 : -1.5, 0, 0}});
     search.add(moved, true);
     ASSERT_EQ(search.find(), !alone);
