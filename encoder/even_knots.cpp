@@ -168,12 +168,8 @@ class EvenSearch {
 }  // namespace
 
 std::shared_ptr<const Parametrization> standing(const Parametrization& parametrization) {
-  FieldGeometry geometry = parametrization.geometry();
-  // At the end of the cut, a column of nodes; its last front may be within the elements before (own_knots()).
-  std::fill(geometry.tip.positions.begin(), geometry.tip.positions.end(),
-            std::clamp(geometry.cut.start + geometry.cut.length, geometry.tip.positions.back(),
-                       std::max(geometry.domain[0].back, geometry.tip.positions.back())));
-  return make_parametrization(parametrization.moves() ? "tip" : parametrization.name(), std::move(geometry));
+  return make_parametrization(parametrization.moves() ? "tip" : parametrization.name(),
+                              standing(parametrization.geometry()));
 }
 
 EvenSpans even_spans(const std::vector<Series>& parts, std::shared_ptr<const Parametrization> parametrization,

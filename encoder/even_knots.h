@@ -12,8 +12,8 @@
 
 namespace cleft {
 
-/// A parametrisation that does not change with time: the tip stands at its last place. Where it follows a
-/// front, distances are as they are, not as displacements grow.
+/// A parametrisation that does not change with time. Where it follows a front, distances are as they are, not
+/// as displacements grow.
 std::shared_ptr<const Parametrization> standing(const Parametrization& parametrization);
 
 /// The spans with which single frames of all `parts`, of one geometry, are off by at most `limit` at all

@@ -148,12 +148,7 @@ void bind_cut(py::module_& module) {
       .def(py::init([](const SharedField& one) { return std::make_shared<CutFields>(one.field); }))
       .def(py::init([](const std::string& file, const std::vector<double>& direction,
                        const std::vector<double>& prestresses) {
-             std::optional<SkinTension> tension;
-             if (!direction.empty())
-               tension = SkinTension{{direction[0], direction[1], direction[2]},
-                                     std::max(prestresses[0], prestresses[1]),
-                                     std::min(prestresses[0], prestresses[1])};
-             return std::make_shared<CutFields>(read_cut_fields(file, tension));
+             return std::make_shared<CutFields>(read_cut_fields(file, skin_tension(direction, prestresses)));
            }),
            arg("file"), arg("direction"), arg("prestresses"));
   py::class_<NumberTable>(module, "PathTable");

@@ -50,6 +50,14 @@ constexpr Entry entries[] = {{FrontParametrization::id, make<FrontParametrizatio
 
 }  // namespace
 
+FieldGeometry standing(FieldGeometry geometry) {
+  std::vector<double>& tip = geometry.tip.positions;
+  const double end = std::clamp(geometry.cut.start + geometry.cut.length, tip.back(),
+                                std::max(geometry.domain[0].back, tip.back()));
+  std::fill(tip.begin(), tip.end(), end);
+  return geometry;
+}
+
 std::shared_ptr<const Parametrization> make_parametrization(const std::string& name, FieldGeometry geometry) {
   for (const Entry& entry : entries)
     if (name == entry.name) return entry.make(std::move(geometry));

@@ -48,6 +48,9 @@ struct FieldGeometry {
 
   friend bool operator==(const FieldGeometry&, const FieldGeometry&) = default;
 };
+/// The same at all times: the tip stands at the end of the cut, a column of nodes; its last front may be
+/// within the elements before.
+FieldGeometry standing(FieldGeometry geometry);
 
 class Parametrization {
  public:

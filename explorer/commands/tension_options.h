@@ -1,12 +1,10 @@
 // --tension and --prestress, alike in all commands that open cuts.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "base/command/command.h"
@@ -35,17 +33,15 @@ struct TensionOptions {
     if (!given()) return std::nullopt;
     if (lines.empty() && direction.empty())
       throw InputError("--prestress: of which direction? Give --tension or --tension-lines too");
-    SkinTension tension;
     if (lines.empty()) {
       check_direction("--tension", direction);
-      tension.direction = {direction[0], direction[1], direction[2]};
-    } else {
-      std::vector<TensionLine> list = read_tension_lines(lines, scale);
-      for (TensionLine& line : list) line.place -= scale * origin;
-      tension.direction = list.front().direction;
-      tension.lines = std::make_shared<const std::vector<TensionLine>>(std::move(list));
+      return skin_tension(direction, prestresses);
     }
-    std::tie(tension.smaller, tension.larger) = std::minmax(prestresses[0], prestresses[1]);
+    std::vector<TensionLine> list = read_tension_lines(lines, scale);
+    for (TensionLine& line : list) line.place -= scale * origin;
+    const Vec3& first = list.front().direction;
+    std::optional<SkinTension> tension = skin_tension({first.x, first.y, first.z}, prestresses);
+    tension->lines = std::make_shared<const std::vector<TensionLine>>(std::move(list));
     return tension;
   }
 

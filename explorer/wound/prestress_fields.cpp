@@ -48,6 +48,13 @@ Prestress PathPrestress::at(double s) const {
   return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
 }
 
+std::optional<SkinTension> skin_tension(const std::vector<double>& direction,
+                                        const std::vector<double>& prestresses) {
+  if (direction.empty()) return std::nullopt;
+  const auto [smaller, larger] = std::minmax(prestresses[0], prestresses[1]);
+  return SkinTension{{direction[0], direction[1], direction[2]}, larger, smaller};
+}
+
 std::vector<TensionLine> lines_of(const SkinTension& tension) {
   if (tension.lines && !tension.lines->empty()) return *tension.lines;
   return {{{}, tension.direction}};

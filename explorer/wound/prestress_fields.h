@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct SkinTension {
   /// (twice_angle_of), and `direction` is not used.
   std::shared_ptr<const std::vector<TensionLine>> lines = nullptr;
 };
+
+/// Of three numbers and of two prestresses, MPa, in either order; none where there is no direction.
+std::optional<SkinTension> skin_tension(const std::vector<double>& direction,
+                                        const std::vector<double>& prestresses);
 
 /// The lines of a tension, of which there is one where it has one direction.
 std::vector<TensionLine> lines_of(const SkinTension& tension);

@@ -181,6 +181,11 @@ TEST(Guard, KeepsSliversWithoutHoldingTheLips) {
 }
 
 /// A vertex 0.04 mm beside an edge makes a sliver, in skin that bends; once the vertex nears the edge, too.
+/// Of a field that draws edges apart, and turns nothing over.
+const GuardSearch::ByField draws_apart{
+    [](int, std::size_t) { return false; }, [](int, int, double) { return true; },
+    [](int, int, double) { return true; }, [](int, std::size_t) { return false; }};
+
 TEST(GuardSearch, LeavesSliversThatHardlyBend) {
   SurfaceMesh plate = grid(10, 10, 0, 0, 1);
   constexpr int middle = 60;
@@ -193,9 +198,7 @@ TEST(GuardSearch, LeavesSliversThatHardlyBend) {
     }
   const CutMesh mesh(plate);
   for (const bool nears : {false, true}) {
-    GuardSearch search(mesh, 0.05,
-                       {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
-                        [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
+    GuardSearch search(mesh, 0.05, draws_apart);
     std::vector<std::pair<int, Vec3>> moved;
     moved.reserve(121);
     for (int v = 0; v < 121; ++v) {
@@ -214,9 +217,7 @@ TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
   const CutMesh mesh(grid(10, 10, 0, 0, 1));
   constexpr int left = 60, right = 61;
   for (const bool for_good : {false, true}) {
-    GuardSearch search(mesh, 0.05,
-                       {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
-                        [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
+    GuardSearch search(mesh, 0.05, draws_apart);
     search.add_pair(left, right, {1, 0, 0});
     for (const bool lasting : {false, true}) {
       std::vector<std::pair<int, Vec3>> moved;
@@ -243,9 +244,7 @@ TEST(GuardSearch, HoldsNothingForGoodForWhatIsUnsoundForAMoment) {
   const CutMesh mesh(grid(10, 10, 0, 0, 1));
   constexpr int at_edge = 55, next = 56;
   for (const bool passes : {false, true}) {
-    GuardSearch search(mesh, 0.05,
-                       {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
-                        [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
+    GuardSearch search(mesh, 0.05, draws_apart);
     if (passes) search.add({{next, {1.5, 0, 0}}}, false);
     search.add({{at_edge, {1.2, 0, 0}}, {next, {0.6, 0, 0}}}, true);
     ASSERT_TRUE(search.find());

@@ -305,11 +305,8 @@ Json knots_of(const Field& own) {
 
 std::shared_ptr<const Field> own_knots(const Json& header, const Json& entry, std::size_t bytes) {
   const std::array<BSplineBasis, 4> bases = bases_of(entry);
-  FieldGeometry geometry = geometry_of(header);
+  FieldGeometry geometry = standing(geometry_of(header));
   check_break(bases[1], geometry.cut);
-  std::fill(geometry.tip.positions.begin(), geometry.tip.positions.end(),
-            std::clamp(geometry.cut.start + geometry.cut.length, geometry.tip.positions.back(),
-                       std::max(geometry.domain[0].back, geometry.tip.positions.back())));
   std::vector<Vec3> none(count_of(bases, bytes));
   return std::make_shared<const Field>(
       make_parametrization(entry.at("parametrization").get<std::string>(), std::move(geometry)), bases,

@@ -30,12 +30,7 @@ stress::FieldsOfGroup fields_of(const Options& o) {
     const auto family = std::make_shared<const Family>(o.field);
     return [family] { return CutFields(std::make_shared<const FamilyFields>(family), std::nullopt); };
   }
-  std::optional<SkinTension> tension;
-  if (!o.direction.empty())
-    tension = SkinTension{{o.direction[0], o.direction[1], o.direction[2]},
-                          std::max(o.prestresses[0], o.prestresses[1]),
-                          std::min(o.prestresses[0], o.prestresses[1])};
-  const CutFields fields = read_cut_fields(o.field, tension);
+  const CutFields fields = read_cut_fields(o.field, skin_tension(o.direction, o.prestresses));
   return [fields] { return CutFields(fields); };
 }
 
