@@ -93,7 +93,7 @@ Vec3 GuardHold::now(int v) {
 
 bool GuardHold::is_sound(int one) {
   const auto corner = search_.corners(one);
-  if (one < 0) return !search_.is_passed(search_.pairs_[-1 - one], now(corner[0]), now(corner[1]));
+  if (one < 0) return !search_.is_passed(one, now(corner[0]), now(corner[1]));
   return search_.is_sound(one, {now(corner[0]), now(corner[1]), now(corner[2])});
 }
 

@@ -110,6 +110,12 @@ std::vector<GuardSearch::Remaining> GuardSearch::remaining() const {
 
 std::vector<GuardSearch::Remaining> GuardSearch::sudden() const {
   std::vector<Remaining> found;
+  add_sudden_triangles(found);
+  add_sudden_pairs(found);
+  return found;
+}
+
+void GuardSearch::add_sudden_triangles(std::vector<Remaining>& found) const {
   for (std::size_t t = 0; t < harmless_.size(); ++t) {
     const int one = static_cast<int>(t);
     if (!mesh_.is_skin(one)) continue;
@@ -125,7 +131,21 @@ std::vector<GuardSearch::Remaining> GuardSearch::sudden() const {
       before = now;
     }
   }
-  return found;
+}
+
+void GuardSearch::add_sudden_pairs(std::vector<Remaining>& found) const {
+  const double limit = part_passed * least_jump_ / 2;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const std::array<int, 2> n{number_[pairs_[i].vertex[0]], number_[pairs_[i].vertex[1]]};
+    double before = 0;
+    for (std::size_t k = 0; k < times(); ++k) {
+      const auto moved = [&](int number) { return number < 0 ? Vec3{} : with(number, k); };
+      const double now = past(pairs_[i], moved(n[0]), moved(n[1]));
+      if (std::max(before, now) + std::abs(now - before) / 2 > limit)
+        found.push_back({-1 - static_cast<int>(i), k});
+      before = now;
+    }
+  }
 }
 
 void GuardSearch::number_vertices() {
@@ -282,7 +302,7 @@ bool GuardSearch::offends(int one, std::size_t k, bool excused) const {
   if (one < 0) {
     const Pair& pair = pairs_[-1 - one];
     const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], k); };
-    return is_passed(pair, moved(pair.vertex[0]), moved(pair.vertex[1])) &&
+    return is_passed(one, moved(pair.vertex[0]), moved(pair.vertex[1])) &&
            !(excused && field_.closes(pair.vertex[0], k));
   }
   const std::array<Vec3, 3> now = moved(one, k);

@@ -70,13 +70,20 @@ class GuardSearch {
   };
   /// Those at times that are not lasting, by times; that the field turns them is no excuse.
   std::vector<Remaining> remaining() const;
-  /// Triangles that move so differently at a time and the one before (at rest before the first) that they may
-  /// not be sound in between, with the guard found and without moments.
+  /// Triangles, and pairs, that move so differently at a time and the one before (at rest before the first)
+  /// that they may not be sound in between, with the guard found and without moments.
   std::vector<Remaining> sudden() const;
   /// Whether a triangle of the skin is sound with these displacements of its corners; that the field turns it
   /// is no excuse.
   bool is_sound(int triangle, const std::array<Vec3, 3>& moved) const {
     return hardly_moves(triangle, moved) || (!is_torn(triangle, moved) && is_kept(triangle, moved));
+  }
+
+  /// The corners of a triangle, or the vertices of pair i if `one` is -1 - i: left and right.
+  std::span<const int> corners(int one) const;
+  /// Whether a pair's lips pass each other by more than `least_jump` with these displacements.
+  bool is_passed(int one, const Vec3& left, const Vec3& right) const {
+    return past(pairs_[-1 - one], left, right) > part_passed * least_jump_;
   }
 
   /// The displacements of its corners at a time between two calls of add(), linear from one to the next: `at`
@@ -122,12 +129,14 @@ class GuardSearch {
     return own_[static_cast<std::size_t>(number) * times() + time];
   }
   std::array<Vec3, 3> moved(int triangle, std::size_t time) const;
-  std::span<const int> corners(int one) const;
   bool offends(int one);
   bool offends(int one, std::size_t time, bool excused) const;
-  bool is_passed(const Pair& pair, const Vec3& left, const Vec3& right) const {
-    return dot(right - left, pair.across) < -part_passed * least_jump_;
+  /// By how much its lips pass each other; less than 0 where they are open.
+  static double past(const Pair& pair, const Vec3& left, const Vec3& right) {
+    return dot(left - right, pair.across);
   }
+  void add_sudden_triangles(std::vector<Remaining>& found) const;
+  void add_sudden_pairs(std::vector<Remaining>& found) const;
   bool hardly_moves(int triangle, const std::array<Vec3, 3>& moved) const;
   bool hardly_bends(int triangle, const std::array<Vec3, 3>& moved) const;
   bool is_kept(int triangle, const std::array<Vec3, 3>& moved) const;

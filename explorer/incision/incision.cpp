@@ -178,6 +178,9 @@ void Incision::redo() {
 }
 
 double Incision::tip() const { return state_->tip_s(); }
+bool Incision::is_short_of_end() const {
+  return !left_mesh() && path_.length() - tip() >= Limits::shortest_rest * path_.length();
+}
 double Incision::start() const { return state_->chain.front().s; }
 bool Incision::left_mesh() const { return state_->tip.left_mesh; }
 bool Incision::bent() const { return state_->bent; }

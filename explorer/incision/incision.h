@@ -72,6 +72,8 @@ class Incision {
   double start() const;
   /// Whether the path has left the mesh over its boundary.
   bool left_mesh() const;
+  /// Whether more of the path is left than a rest that is not worth a vertex, within the mesh.
+  bool is_short_of_end() const;
   int original_triangles() const { return original_triangles_; }
   int moved_vertices() const;
   /// Whether slivers were repaired across a bend, which moves the surface by up to chord_tolerance / 10.

@@ -227,9 +227,9 @@ std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*
   return result;
 }
 
-Relief relief_while_cut(const std::vector<const Wound*>& cuts, double length) {
+Relief relief_while_cut(const std::vector<const Wound*>& cuts) {
   std::vector<double> blades;
-  for (int i = 0; i <= steps; ++i) blades.push_back(length * i / steps);
+  for (int i = 0; i <= steps; ++i) blades.push_back(cuts.back()->felt() * i / steps);
   return Relief(mutual_relief(cuts, blades));
 }
 

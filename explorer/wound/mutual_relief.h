@@ -117,7 +117,7 @@ class Relief {
 std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
                                                   const std::vector<double>& blades);
 
-/// Those of mutual_relief while the blade makes the first `length` mm of the last cut's path.
-Relief relief_while_cut(const std::vector<const Wound*>& cuts, double length);
+/// Those of mutual_relief while the blade makes the last cut, as far as it reaches.
+Relief relief_while_cut(const std::vector<const Wound*>& cuts);
 
 }  // namespace cleft

@@ -31,7 +31,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
       const std::size_t v = a.vertex;
       displacements.push_back(moved[v] - rest()[v]);
     }
-    set_relief(k + 1, cleft::relief_while_cut(first(k + 2), path_length(k + 1)));
+    set_relief(k + 1, cleft::relief_while_cut(first(k + 2)));
   }
   std::vector<Vec3> now(vertex_count());
   std::vector<std::vector<int>> number(size(), std::vector<int>(vertex_count()));

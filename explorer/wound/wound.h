@@ -39,6 +39,10 @@ struct Wound {
     return (tip < (1 - rounding) * length && !incision->left_mesh() ? tip : length) * scale();
   }
 
+  /// The position of the blade up to which the others feel the cut, once it is made: complete(), but where it
+  /// has stopped short of that.
+  double felt() const { return incision->is_short_of_end() ? reached() : complete(); }
+
   const Incision* incision;
   VaryingField field;
   IncisionVolume volume;

@@ -19,8 +19,8 @@ std::vector<const Wound*> Wounds::first(std::size_t count) const {
 }
 
 Relief::At Wounds::relief_at(const Blade& blade) const {
-  const Wound& newest = wounds_[blade.cut];
-  return relief_[blade.cut].at(blade.s / (newest.incision->path().length() * newest.scale()));
+  const double reached = wounds_[blade.cut].reached();
+  return relief_[blade.cut].at(blade.s < reached ? blade.s / reached : 1);
 }
 
 double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
@@ -74,14 +74,11 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
 }
 
 /// The amplitudes while the blade makes the newest of some cuts.
-Relief Wounds::relief_while_cut(std::size_t newest, double length) const {
+Relief Wounds::relief_while_cut(std::size_t newest) const {
   if (newest == 0) return {};
-  // A replay has found it for all of the path.
-  const Incision& cut = *wounds_[newest].incision;
-  if (relief_[newest].steps() > 1 && length == cut.path().length() * wounds_[newest].scale())
-    return relief_[newest];
+  if (relief_[newest].steps() > 1) return relief_[newest];  // a replay has found it
   try {
-    return cleft::relief_while_cut(first(newest + 1), length);
+    return cleft::relief_while_cut(first(newest + 1));
   } catch (const InputError&) {  // the field does not tell the tension: displacements add
     return {};
   }

@@ -63,7 +63,7 @@ class Wounds::GuardLooks {
           search_.add_pair(c.left, c.right, wound.incision->path().at(c.s).across);
           lips_.push_back({c.left, c.right});
         }
-      relief_.push_back(wounds.relief_while_cut(k, wound.reached()));
+      relief_.push_back(wounds.relief_while_cut(k));
       complete_.push_back(moved({k, wound.reached()}));
       number_.emplace_back(mesh_.vertices().size(), -1);
       std::vector<std::pair<int, double>> vertices;
@@ -185,8 +185,7 @@ class Wounds::GuardLooks {
       for (int i = 1; i < looks_between; ++i) {
         const double s = before + (blade.s - before) * i / looks_between,
                      beside = (blade.s - before) / (2 * looks_between);
-        if (left(one, {blade.cut, s}, guard) == GuardPassage::unsound)
-          hold(one, {blade.cut, s}, s - beside, s + beside, guard);
+        if (is_unsound(one, {blade.cut, s}, guard)) hold(one, {blade.cut, s}, s - beside, s + beside, guard);
       }
     }
   }
@@ -308,6 +307,13 @@ class Wounds::GuardLooks {
     return largest > 0 ? taken / largest : 0;
   }
 
+  bool is_unsound(int one, const Blade& blade, const Guard& guard) const {
+    if (one >= 0) return left(one, blade, guard) == GuardPassage::unsound;
+    const std::span<const int> lips = search_.corners(one);
+    const Relief::At now = relief_at(blade);
+    return search_.is_passed(one, moved(lips[0], blade, now, guard), moved(lips[1], blade, now, guard));
+  }
+
   /// GuardPassage::Left.
   double left(int triangle, const Blade& blade, const Guard& guard) const {
     const std::array<Vec3, 3> moved = this->moved(triangle, blade, guard);
@@ -317,13 +323,13 @@ class Wounds::GuardLooks {
   /// The displacements of its corners.
   std::array<Vec3, 3> moved(int triangle, const Blade& blade, const Guard& guard) const {
     const Relief::At now = relief_at(blade);
+    const auto& v = mesh_.triangle(triangle).vertex;
+    return {moved(v[0], blade, now, guard), moved(v[1], blade, now, guard), moved(v[2], blade, now, guard)};
+  }
+
+  Vec3 moved(int vertex, const Blade& blade, const Relief::At& now, const Guard& guard) const {
     const auto own = [&](int v) { return this->own(v, blade, now); };
-    std::array<Vec3, 3> displacements;
-    for (int i = 0; i < 3; ++i) {
-      const int v = mesh_.triangle(triangle).vertex[i];
-      displacements[i] = guard.moments().part(v, blade.cut, blade.s) * guard.displacement(v, own);
-    }
-    return displacements;
+    return guard.moments().part(vertex, blade.cut, blade.s) * guard.displacement(vertex, own);
   }
 
   const Wounds& wounds_;

@@ -237,6 +237,31 @@ TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
   }
 }
 
+/// Between two times lips may pass each other that do so at neither of them: where they change much, or all
+/// but pass each other already.
+TEST(GuardSearch, TellsWhichLipsMayPassEachOtherBetweenTimes) {
+  const CutMesh mesh(grid(10, 10, 0, 0, 1));
+  constexpr int left = 60, right = 61;
+  GuardSearch search(mesh, 0.05, draws_apart);
+  search.add_pair(left, right, {1, 0, 0});
+  const double open[] = {0.5, 0.5, 0.49, -0.03, -0.03, 0.5, 0};
+  for (const double by : open) {
+    std::vector<std::pair<int, Vec3>> moved;
+    moved.reserve(121);
+    for (int v = 0; v < 121; ++v) moved.push_back({v, {0, 1, 0}});
+    moved[left].second.x = -by / 2, moved[right].second.x = by / 2;
+    search.add(moved, true);
+  }
+  ASSERT_TRUE(search.find());
+  std::vector<std::size_t> times;
+  for (const GuardSearch::Remaining& one : search.sudden())
+    if (one.one == -1) times.push_back(one.time);
+  EXPECT_EQ(times, (std::vector<std::size_t>{0, 3, 4, 5, 6}));
+  EXPECT_EQ(search.corners(-1).front(), left);
+  EXPECT_TRUE(search.is_passed(-1, {0.06, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(search.is_passed(-1, {0.03, 0, 0}, {0, 0, 0}));
+}
+
 /// A vertex at the edge of the mesh follows its neighbour further than the skin around does. That the
 /// neighbour turns a triangle over for a moment is no reason to hold both back for good, as means of what is
 /// around do.
@@ -272,6 +297,35 @@ TEST(GuardSearch, BlamesTheFieldOfASingleCutAlone) {
     search.hold_excused();
     EXPECT_FALSE(search.result().empty());
   }
+}
+
+/// The blade goes on to the end of a path on which the mesh could not be cut further. The guard was found for
+/// other displacements than those shown then: the other cuts had less tension left.
+TEST(Guard, IsFoundForWhatIsShownWhereACutHasStopped) {
+  constexpr double stops = 8;
+  const auto two = [](double length, double cut) {
+    auto opened = std::make_unique<Opened>(grid(60, 40, -30, -20, 1));
+    opened->cut(path_through({{-15, -2, 0}, {15, -2, 0}}, up, 3));
+    opened->cuts.push_back(std::make_unique<Incision>(
+        opened->mesh, path_through({{-15, 2, 0}, {length - 15, 2, 0}}, up, 3), IncisionOptions{}));
+    opened->cuts.back()->advance_to(cut);
+    return opened;
+  };
+  const auto stopped = two(30, stops), shorter = two(stops, stops), whole = two(30, 30);
+  const auto wounds = stopped->wounds();
+  const double reached = (*wounds)[1].reached();
+  ASSERT_NEAR(reached, stops, 0.5);
+  ASSERT_NEAR(wounds->duration(), 60, 1e-9);
+  for (const double s : {2., 5., 10.}) {
+    const double is = wounds->amplitude(0, s, {1, 30});
+    EXPECT_EQ(is, wounds->amplitude(0, s, {1, reached}));
+    EXPECT_NEAR(is, shorter->wounds()->amplitude(0, s, {1, stops}), 0.05);
+    EXPECT_LT(whole->wounds()->amplitude(0, s, {1, 30}), is - 0.1);
+  }
+  std::vector<Vec3> at_stop(wounds->vertex_count()), at_end(at_stop.size());
+  wounds->positions(30 + reached, at_stop);
+  wounds->positions(60, at_end);
+  EXPECT_EQ(at_stop, at_end);
 }
 
 TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
