@@ -188,6 +188,14 @@ OwnCut FamilyFields::own_cut(const LocalShape& local, double u_from_middle) cons
           local.curvature_rate};
 }
 
+/// Of the family's blade that stands for a place, degrees.
+double FamilyFields::known_tilt(const LocalShape& local) const {
+  const auto range = family_->shapes().find("cut.tilt");
+  return range == family_->shapes().end()
+             ? 0
+             : std::clamp(local.tilt, range->second.least, range->second.greatest);
+}
+
 double FamilyFields::AlongPath::at(double s) const {
   const auto [a, b, part] = between(stations, s);
   return std::lerp(values[a], values[b], part);
@@ -260,7 +268,7 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
   for (const std::size_t i : bends_of(shapes.stations, numbers, straight_enough, near_enough, corners)) {
     const double s = shapes.stations[i];
     const auto [field, outside] = family_->at(cases[i].shapes, cases[i].prestress);
-    stations.push_back({s, field, local[i], shapes.values[i].along, outside});
+    stations.push_back({s, field, local[i], shapes.values[i].along, outside, known_tilt(shapes.values[i])});
   }
   return {family_->shared_middle(), std::move(stations)};
 }
@@ -281,7 +289,7 @@ void FamilyFields::extend(VaryingField& field, const Incision& incision, double 
   const double x = from_middle(s, length, shape().cut());
   const CaseShape one = case_of(local, own_cut(local, x), prestress, x);
   const auto [there, outside] = family_->at(one.shapes, one.prestress);
-  field.extend({s, there, prestress, local.along, outside});
+  field.extend({s, there, prestress, local.along, outside, known_tilt(local)});
 }
 
 }  // namespace cleft

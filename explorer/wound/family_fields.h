@@ -58,6 +58,7 @@ class FamilyFields {
   };
   AlongPath ease(const PathShape& shapes, double t) const;
   OwnCut own_cut(const LocalShape& local, double u_from_middle) const;
+  double known_tilt(const LocalShape& local) const;
 
   std::shared_ptr<const Family> family_;
   TissueAboveBone tissue_;

@@ -18,8 +18,13 @@ constexpr double margin = 1. / 4;
 /// Of the path's length: a place nearer to the blade's surface than this is on it, but for rounding.
 constexpr double rounding = 1e-9;
 /// The tilt of the line between the lips over the tilt of the blade, and over how many depths of the cut it
-/// falls by a factor of e across it: what the solver's tilted cuts show (tests/truth).
-constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5;
+/// falls by a factor of e across it: what the solver's tilted cuts show (tests/truth). The tilt is a mean
+/// along the cut, with weights that fall by a factor of e over `tilt_mean` depths: lips of simulated cuts
+/// whose tilt waves along them, by 8 degrees over 60 to 7 mm, rise and sink so to 0.03 of what they do under
+/// an even tilt.
+constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5, tilt_mean = 0.42;
+/// Of that distance: weights further away are left out.
+constexpr double tilt_farthest = 5;
 /// Radians: simulations of tilted cuts end at 60 degrees (cut.tilt). Where the skin under the blade turns
 /// away further, the lips are lifted as at 60; the tangent would grow without bound at 135.
 constexpr double most_tilt = 60 * std::numbers::pi / 180;
@@ -59,6 +64,7 @@ IncisionVolume::IncisionVolume(const Incision& incision, const VaryingField& fie
   update(later);
   find_normals();
   find_directions();
+  find_tilts();
 }
 
 void IncisionVolume::follow_path() {
@@ -67,6 +73,7 @@ void IncisionVolume::follow_path() {
   for (const int v : incision_.surroundings().relabelled()) labels_[v] = found[v];
   find_normals();
   find_directions();
+  find_tilts();
   room_.follow_path(incision_);
 }
 
@@ -131,17 +138,53 @@ void IncisionVolume::find_directions() {
   }
 }
 
-PathFrame IncisionVolume::skin_frame(double s) const {
-  PathFrame frame = incision_.path().at(s);
+/// The blade's tilt at the places of along_.
+void IncisionVolume::find_tilts() {
+  const ScalpelPath& path = incision_.path();
+  const double pieces = static_cast<double>(along_.size() - 1), step = path.length() / pieces;
+  std::vector<double> tilt;
+  tilt.reserve(along_.size());
+  for (std::size_t i = 0; i < along_.size(); ++i) {
+    const double s = step * static_cast<double>(i);
+    const PathFrame skin = frame_along(s, std::nullopt);
+    const Vec3 blade = path.at(s).outward;
+    tilt.push_back(
+        std::clamp(std::atan2(-dot(blade, skin.across), dot(blade, skin.outward)), -most_tilt, most_tilt));
+  }
+  const double reach = tilt_mean * field_.cut().depth / (scale_ * step);
+  const auto most = static_cast<std::size_t>(std::min(tilt_farthest * reach, pieces));
+  tilt_.clear();
+  for (std::size_t i = 0; i < tilt.size(); ++i) {
+    double sum = 0, weights = 0;
+    for (std::size_t k = i - std::min(i, most); k < std::min(tilt.size(), i + most + 1); ++k) {
+      const double weight = std::exp(-std::abs(static_cast<double>(k) - static_cast<double>(i)) / reach);
+      sum += weight * tilt[k], weights += weight;
+    }
+    tilt_.push_back(sum / weights);
+  }
+}
+
+/// Between which of along_ a place is, and how far from the first to the next.
+std::pair<std::size_t, double> IncisionVolume::place_along(double s) const {
   const double place =
       std::clamp(s / incision_.path().length(), 0., 1.) * static_cast<double>(along_.size() - 1);
   const std::size_t before = std::min(static_cast<std::size_t>(place), along_.size() - 2);
-  frame.along = lerp(along_[before], along_[before + 1], place - static_cast<double>(before));
+  return {before, place - static_cast<double>(before)};
+}
+
+PathFrame IncisionVolume::skin_frame(double s) const {
+  return frame_along(s, family_ ? family_->along(s * scale_) : std::nullopt);
+}
+
+PathFrame IncisionVolume::frame_along(double s, const std::optional<Vec3>& along) const {
+  PathFrame frame = incision_.path().at(s);
+  const auto [before, after] = place_along(s);
+  frame.along = lerp(along_[before], along_[before + 1], after);
   if (!station_.empty()) {
     const auto [a, b, part] = between(station_, s);
     frame.outward = normalized(lerp(normal_[a], normal_[b], part));
   }
-  if (family_) frame.along = *family_->along(s * scale_);
+  if (along) frame.along = *along;
   frame.along = normalized(frame.along - dot(frame.along, frame.outward) * frame.outward);
   frame.across = cross(frame.outward, frame.along);
   return frame;
@@ -233,18 +276,21 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
                                     : 0;
   if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at.s);
-  const double lift = family_ ? 0 : lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
+  const double lift = lift_of_tilted_blade(at.s, std::abs(v));
   return ActiveVertex{
       vertex,        {u_in, v_in, at.w}, at.side,           frame.along, frame.across + lift * frame.outward,
       frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut};
 }
 
 /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two
-/// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut.
-double IncisionVolume::lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const {
-  const double tilt =
-      std::clamp(std::atan2(-dot(blade, skin.across), dot(blade, skin.outward)), -most_tilt, most_tilt);
-  return std::tan(lips_tilt * tilt) * std::exp(-v / (tilt_reach * field_.cut().depth));
+/// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut. A
+/// family's displacements are those under a blade whose tilt is smoothed far along the cut.
+double IncisionVolume::lift_of_tilted_blade(double s, double v) const {
+  const auto [before, after] = place_along(s);
+  const double tilt = std::lerp(tilt_[before], tilt_[before + 1], after),
+               known = family_ ? family_->tilt(s * scale_) * std::numbers::pi / 180 : 0;
+  return (std::tan(lips_tilt * tilt) - std::tan(lips_tilt * known)) *
+         std::exp(-v / (tilt_reach * field_.cut().depth));
 }
 
 std::vector<ActiveVertex> IncisionVolume::active() const {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "encoder/field/field.h"
@@ -98,7 +99,10 @@ class IncisionVolume {
   Side side_on_skin(int vertex, double straight) const;
   void find_normals();
   void find_directions();
-  double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
+  void find_tilts();
+  std::pair<std::size_t, double> place_along(double s) const;
+  PathFrame frame_along(double s, const std::optional<Vec3>& along) const;
+  double lift_of_tilted_blade(double s, double v) const;
 
   const Incision& incision_;
   const Field& field_;
@@ -107,6 +111,7 @@ class IncisionVolume {
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
   WoundRoom room_;
   std::vector<Vec3> along_;      // T at even distances along the path, means
+  std::vector<double> tilt_;     // there, of the blade against the skin's normal, radians, means
   std::vector<double> station_;  // s of the surroundings' stations
   std::vector<Vec3> normal_;     // of the skin there, a mean
 };

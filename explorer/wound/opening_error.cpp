@@ -24,6 +24,7 @@ constexpr double of_tilt_family = 0.035;  // likewise
 constexpr double of_tilted_bend = 1.4, of_tilted_bend_in_curved_skin = 75;
 constexpr double of_shallow = 0.27, of_deep = 0.16;  // times the logarithm of depth over the canonical one
 constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: times the skin's curvatures
+constexpr double of_uneven = 1;  // of the skin: its distance from a quadric, in depths of the cut
 constexpr double of_length = 0.1;  // times the part of the path beyond the canonical cut
 /// Of the error by the length, where the tension is that with which the whole path opens (path_opening.h).
 constexpr double of_length_turned = 0.4;
@@ -137,6 +138,8 @@ Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const
                    cut.followed.skin ? 0 : of_skin_across * local.skin_v + of_skin_along * local.skin_u,
                twist = cut.followed.twist ? 0 : of_twist * local.skin_uv;
   parts.push_back({(std::abs(along_and_across) + std::abs(twist)) * in_cuts, "the skin is curved"});
+  parts.push_back({of_uneven * local.skin_uneven / canonical.depth,
+                   "the skin is uneven: # mm from smoothly curved", local.skin_uneven});
   parts.push_back({of_outside * cut.field.outside(s), "its shape is beyond those of the family"});
   return parts;
 }

@@ -84,7 +84,8 @@ class Shapes {
     along = std::cos(turned) * along + std::sin(turned) * cross(outward, along);
     shape.along = along, shape.outward = outward;
     if (const auto skin = skin_.at(s, outward, along, smoothing_))
-      shape.skin_u = skin->uu, shape.skin_v = skin->vv, shape.skin_uv = skin->uv;
+      shape.skin_u = skin->uu, shape.skin_v = skin->vv, shape.skin_uv = skin->uv,
+      shape.skin_uneven = skin->uneven;
     return shape;
   }
 
@@ -240,7 +241,7 @@ LocalShape PathShape::at(double s) const {
   LocalShape shape;
   for (const auto member :
        {&LocalShape::curvature, &LocalShape::curvature_rate, &LocalShape::tilt, &LocalShape::depth,
-        &LocalShape::skin_u, &LocalShape::skin_v, &LocalShape::skin_uv})
+        &LocalShape::skin_u, &LocalShape::skin_v, &LocalShape::skin_uv, &LocalShape::skin_uneven})
     shape.*member = (1 - part) * values[a].*member + part * values[b].*member;
   for (const auto member : {&LocalShape::along, &LocalShape::outward}) {
     const Vec3 sum = lerp(values[a].*member, values[b].*member, part);

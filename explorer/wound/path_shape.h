@@ -22,8 +22,9 @@ struct LocalShape {
   double tissue = std::numeric_limits<double>::infinity();  ///< mm, above bone, if there is any below
   /// 1/mm, the curvature tensor of the skin; positive where the body bulges: 1/R, 1/R, 0 of a sphere.
   double skin_u = 0, skin_v = 0, skin_uv = 0;
-  Vec3 along = {};    ///< unit, in space: the path's smooth direction, in which all of this is
-  Vec3 outward = {};  ///< unit: the skin's normal
+  double skin_uneven = 0;  ///< mm: how far the skin is from a quadric, root of the mean square
+  Vec3 along = {};         ///< unit, in space: the path's smooth direction, in which all of this is
+  Vec3 outward = {};       ///< unit: the skin's normal
 };
 
 /// The shape of all of a path.

@@ -61,6 +61,7 @@ void VaryingField::extend(StationField station) {
     throw InputError("the fields of a family are not of cuts of one length in patches of one size");
   along_->stations.push_back(station.s), along_->prestress.push_back(station.prestress);
   along_->direction.push_back(station.along), along_->outside.push_back(station.outside);
+  along_->tilt.push_back(station.tilt);
   along_->contraction_tolerance =
       std::max(along_->contraction_tolerance, station.field->contraction_tolerance());
   along_->fields.push_back(std::move(station.field));
@@ -163,6 +164,12 @@ double VaryingField::outside(double s) const {
   if (!along_) return 0;
   const auto [a, b, part] = between(along_->stations, s);
   return std::lerp(along_->outside[a], along_->outside[b], part);
+}
+
+double VaryingField::tilt(double s) const {
+  if (!along_) return 0;
+  const auto [a, b, part] = between(along_->stations, s);
+  return std::lerp(along_->tilt[a], along_->tilt[b], part);
 }
 
 }  // namespace cleft

@@ -24,6 +24,7 @@ struct StationField {
   Prestress prestress;  ///< MPa, along `along`, across it, and shear
   Vec3 along;           ///< unit, in space: the direction of u there
   double outside = 0;   ///< how far the shape is beyond those of the family, over half a range
+  double tilt = 0;      ///< of the field's blade against the skin's normal, degrees
 };
 
 class VaryingField {
@@ -74,6 +75,8 @@ class VaryingField {
   std::optional<Vec3> along(double s) const;
   /// How far the shape at s mm of the path is beyond those of a family, over half their range.
   double outside(double s) const;
+  /// The tilt of the blade that is in the displacements at s mm of the path, degrees; 0 but of a family.
+  double tilt(double s) const;
 
  private:
   /// A field and its weight at a place.
@@ -88,7 +91,7 @@ class VaryingField {
     std::vector<std::shared_ptr<const Field>> fields;
     std::vector<Prestress> prestress;
     std::vector<Vec3> direction;
-    std::vector<double> outside;
+    std::vector<double> outside, tilt;
     double contraction_tolerance = 0;
   };
   void parts_at(double s, std::vector<Part>& parts) const;

@@ -251,6 +251,22 @@ TEST(PathShape, NoiseOfAScanIsSmallBesideCurvature) {
   EXPECT_LT(std::max({worst.u, worst.v, worst.uv, worst.curvature}), 0.002);
 }
 
+/// Of a cubic, against the residual of the same fit at its own places; of a quadric none.
+TEST(PathShape, SkinThatIsNoQuadricIsUneven) {
+  constexpr double cubic = 0.002, distance = 9;
+  const auto of = [&](const std::function<double(double, double)>& height) {
+    const Incision cut = incision(skin(30, 1, 0, height), {{-15, 0, 0}, {0, 0, 0}, {15, 0, 0}});
+    return local_shape(cut, 1, 15, {distance, distance}).skin_uneven;
+  };
+  EXPECT_LT(of(flat), 1e-12);
+  EXPECT_LT(of([](double x, double y) { return (x * x - 2 * x * y + y * y / 2) / 100; }), 0.01);
+  // y^3 / 6 without its part in y: both over the disc with the weight 1 - r^2, in polar coordinates.
+  // The means of y^2, y^4 and y^6 there are 1/6, 1/16 and 1/32.
+  const double of_y = (1. / 16) / (1. / 6), left = std::sqrt(1. / 32 - of_y * (1. / 16)) / 6;
+  EXPECT_NEAR(of([](double, double y) { return cubic * y * y * y / 6; }),
+              cubic * std::pow(distance, 3) * left, 0.05 * cubic * std::pow(distance, 3) * left);
+}
+
 TEST(PathShape, TiltAndDepthAreTheBlades) {
   const SurfaceMesh plate = skin(30, 3, 0, flat);
   for (const double degrees : {-40., 20., 45.}) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <numbers>
 #include <random>
 
 #include "tests/incision/meshes.h"
@@ -36,6 +38,42 @@ struct Straight {
   Incision incision{plane, path_through({{-5, 0, 0}, {5, 0, 0}}, up, canonical.depth), unrefined()};
   Straight() { incision.advance_to(10); }
 };
+
+/// The mean of a wave under weights that fall exponentially is known in closed form.
+TEST(Replay, LiftsTheLipsUnderABladeWhoseTiltWaves) {
+  constexpr double depth = 3, reach = 0.42 * depth, degrees = std::numbers::pi / 180, length = 40;
+  const CanonicalCut cut{-20, length, depth};
+  const auto field = std::make_shared<const Field>(opening_field(cut, 60, 40, 6, 2));
+  for (const double wave : {16., 8.}) {
+    const auto tilt = [&](double s) { return 10 * degrees * std::cos(2 * std::numbers::pi * s / wave); };
+    std::vector<ScalpelPath::Point> points;
+    for (double s = 0; s <= length; s += 0.25)
+      points.push_back({{s - length / 2, 0, 0}, {0, -std::sin(tilt(s)), std::cos(tilt(s))}, depth});
+    Incision incision(grid(60, 40, -30, -20, 1), ScalpelPath(points), unrefined());
+    incision.advance_to(length);
+    const double part = 1 / (1 + std::pow(2 * std::numbers::pi * reach / wave, 2));
+    const VaryingField family(field, {{.s = 0, .field = field, .along = {1, 0, 0}, .tilt = 6}});
+    for (const bool follows : {false, true}) {
+      const VaryingField opened = follows ? family : VaryingField(*field);
+      const IncisionVolume volume = [&] {
+        IncisionVolume made(incision, opened, 1);
+        made.opened_by(opened);
+        return made;
+      }();
+      int lips = 0;
+      for (const auto& c : incision.chain()) {
+        if (c.left == c.right || c.s < 8 || c.s > length - 8) continue;
+        const auto at = volume.locate(c.left);
+        ASSERT_TRUE(at);
+        const double expected =
+            std::tan(2. / 3 * part * tilt(c.s)) - (follows ? std::tan(2. / 3 * 6 * degrees) : 0);
+        EXPECT_NEAR(dot(at->across, at->outward), expected, 0.004) << wave << ", " << c.s;
+        ++lips;
+      }
+      EXPECT_GT(lips, 10);
+    }
+  }
+}
 
 TEST(Replay, IsTheFieldItselfOnAFlatPatch) {
   const Straight cut;
