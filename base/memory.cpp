@@ -8,6 +8,10 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
 
 namespace cleft {
 
@@ -21,6 +25,21 @@ double number_in(const std::string& path, double otherwise) {
 }
 
 }  // namespace
+
+double parse_memory(const std::string& text, const std::string& option) {
+  constexpr double least = 1e6;
+  double unit = 1e9;
+  std::string number = text;
+  for (const auto& [name, bytes] : {std::pair("GB", 1e9), std::pair("MB", 1e6)})
+    if (number.ends_with(name)) {
+      number.resize(number.size() - 2), unit = bytes;
+      break;
+    }
+  const double bytes = unit * parse_number(number, option);
+  if (!(bytes >= least))
+    throw InputError(option + " " + text + ": must be at least 1 MB, as 4, 4GB or 500MB");
+  return bytes;
+}
 
 double available_memory() {
   constexpr double unlimited = std::numeric_limits<double>::infinity();

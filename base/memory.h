@@ -1,6 +1,8 @@
 // Available and used memory.
 #pragma once
 
+#include <string>
+
 namespace cleft {
 
 /// Bytes that are available on this machine, or in the control group of this process.
@@ -11,6 +13,10 @@ double peak_memory();
 
 /// Bytes that this process holds now.
 double held_memory();
+
+/// Bytes: "4" and "4GB" are 4e9, "500MB" 5e8. Throws InputError, that names `option`, if it is less than 1
+/// MB.
+double parse_memory(const std::string& text, const std::string& option);
 
 /// From now on blocks of many MB are returned to the system when they are freed. SuperLU_DIST, a dependency
 /// of Trilinos, disables this when it is loaded, which fragments the memory.

@@ -323,11 +323,10 @@ int main(int argc, char** argv) {
          "they stay (the paper's)")
       ->check(one_of(parametrization_names()))
       ->capture_default_str();
-  double memory = 0;
+  std::string memory;
   app.add_option("--memory", memory,
-                 "GB that may be used (default: nine tenths of what is free); the values of larger snapshots "
-                 "are kept in a temporary file, in TMPDIR or beside the field")
-      ->check(at_least(0.001));
+                 "GB that may be used, as 4, 4GB or 500MB (default: nine tenths of what is free); the values "
+                 "of larger snapshots are kept in a temporary file, in TMPDIR or beside the field");
   app.add_flag("--json", json, "print the figures as JSON; several snapshots: a list");
 
   return run_command(app, argc, argv, [&] {
@@ -335,7 +334,7 @@ int main(int argc, char** argv) {
     if (options.regularisation) check_regularisation(*options.regularisation, "--regularisation");
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     Task task{snapshots, outputs_of(snapshots, out, ".dffd", "snapshot"),
-              options,   memory > 0 ? 1e9 * memory : 0.9 * available_memory(),
+              options,   memory.empty() ? 0.9 * available_memory() : parse_memory(memory, "--memory"),
               &ranks,    {}};
     ranks.check();
     for (const std::string& file : task.outs) {

@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   LocalOptions options;
   options.jobs = 0;
   bool dry_run = false, json = false;
-  double memory = 0;
+  std::string memory;
   SlurmSettings slurm;
   std::string task;
   app.add_option("STUDY.toml", file, "study file")->required();
@@ -144,8 +144,8 @@ int main(int argc, char** argv) {
       ->check(in_range(1, 4096))
       ->capture_default_str();
   app.add_option("--memory", memory,
-                 "GB that cases may take together, as estimated (default: nine tenths of what is free)")
-      ->check(above(0));
+                 "GB that cases may take together, as estimated, as 4, 4GB or 500MB (default: nine tenths of "
+                 "what is free)");
   app.add_option("--launcher", launcher, "where cases run")
       ->check(one_of({"local", "slurm"}))
       ->capture_default_str();
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
           1, static_cast<int>(std::thread::hardware_concurrency()) / (options.ranks * options.threads));
     if (dry_run) return list_cases(study, known_cases(study, out), out, options.jobs, json);
     cases_of(study);  // mistakes are told before a folder is made
-    options.memory = memory > 0 ? 1e9 * memory : 0.9 * available_memory();
+    options.memory = memory.empty() ? 0.9 * available_memory() : parse_memory(memory, "--memory");
     const StudyFolder folder = task.empty() ? StudyFolder::create(out, study) : StudyFolder(out);
     if (task.empty())
       for (const auto& [hash, why, aside] : folder.set_damaged_aside())

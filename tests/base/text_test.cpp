@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -50,6 +51,13 @@ TEST(Csv, NamesThePlaceOfAMistake) {
 TEST(TextFile, AnEmptyFileIsAnEmptyText) {
   const TemporaryFolder folder;
   EXPECT_EQ(read_text_file(folder.write("empty", "")), "");
+}
+
+TEST(Memory, IsGivenInGigabytesOrWithItsUnit) {
+  for (const auto& [text, bytes] : {std::pair("4", 4e9), std::pair("4 GB", 4e9), std::pair("500MB", 5e8)})
+    EXPECT_EQ(parse_memory(text, "--memory"), bytes) << text;
+  for (const char* text : {"", "GB", "4kB", "0", "-1GB", "0.5MB", "nan", "much"})
+    EXPECT_THROW(parse_memory(text, "--memory"), InputError) << text;
 }
 
 }  // namespace cleft
