@@ -160,12 +160,10 @@ class Encoder {
   }
 
   /// As `fit`, with knots beside the cut that are as close as nodes of coarse meshes, between which edges
-  /// hold the spline; none if there are no such knots, if they are no remedy, or if other quantities need
-  /// knots too.
+  /// hold the spline; none if there are no such knots, or if they are no remedy.
   std::unique_ptr<SeriesFit> on_close_knots(const SeriesFit& fit, const Misfit& misfit,
                                             const std::vector<TimeKink>& kinks) const {
-    if (misfit.largest <= limit_ || !parametrization_->resolves_front() || series_.middles.samples.empty() ||
-        !series_.quantities.empty())
+    if (misfit.largest <= limit_ || !parametrization_->resolves_front() || series_.middles.samples.empty())
       return nullptr;
     Rung rung =
         supported(close_rungs_of(ladder_of_series()), series_, *parametrization_, nodes_held_firmly).back();
