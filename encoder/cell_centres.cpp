@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 
 #include "solver/snapshot/cell_types.h"
 
@@ -53,6 +54,43 @@ CellCentres edge_middles(const Snapshot& snapshot, const std::vector<Sample>& sa
     }
   }
   return middles;
+}
+
+namespace {
+
+/// The corners of a cell's quadrilateral in v = 0 on one side of the cut; none if it has no such.
+std::vector<std::int64_t> quadrilateral_on_lip(std::span<const std::int64_t> corners, std::uint8_t type,
+                                               const std::vector<Sample>& samples) {
+  constexpr std::size_t of_quadrilateral = 4;
+  std::vector<std::int64_t> on_plane;
+  if (edges_of_type(type).empty()) return on_plane;
+  for (const std::int64_t n : corners)
+    if (samples[static_cast<std::size_t>(n)].uvw.y == 0) on_plane.push_back(n);
+  const auto side = [&](std::int64_t n) { return samples[static_cast<std::size_t>(n)].side; };
+  const bool is_one = on_plane.size() == of_quadrilateral && corners.size() > of_quadrilateral &&
+                      std::all_of(on_plane.begin(), on_plane.end(), [&](std::int64_t n) {
+                        return side(n) == side(on_plane.front()) && side(n) != Side::both;
+                      });
+  return is_one ? on_plane : std::vector<std::int64_t>();
+}
+
+}  // namespace
+
+void add_quadrilaterals_on_lips(CellCentres& middles, const Snapshot& snapshot,
+                                const std::vector<Sample>& samples) {
+  for (std::size_t c = 0; c < snapshot.cell_types.size(); ++c) {
+    const std::vector<std::int64_t> face =
+        quadrilateral_on_lip({snapshot.connectivity.begin() + snapshot.cell_offsets[c],
+                              snapshot.connectivity.begin() + snapshot.cell_offsets[c + 1]},
+                             snapshot.cell_types[c], samples);
+    if (face.empty()) continue;
+    Vec3 middle;
+    for (const std::int64_t n : face) middle += 0.25 * samples[static_cast<std::size_t>(n)].uvw;
+    middles.samples.push_back({middle, samples[static_cast<std::size_t>(face[0])].side});
+    middles.touches_plane.push_back(true);
+    middles.nodes.insert(middles.nodes.end(), face.begin(), face.end());
+    middles.first.push_back(middles.nodes.size());
+  }
 }
 
 Eigen::MatrixXd CellCentres::mean(const Eigen::Ref<const Eigen::MatrixXd>& frame) const {

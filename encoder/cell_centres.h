@@ -29,5 +29,8 @@ CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& sa
 /// The same of the edges of linear cells; those in v = 0 are on the side of their nodes, and left out where
 /// these are on both sides.
 CellCentres edge_middles(const Snapshot& snapshot, const std::vector<Sample>& samples);
+/// Adds the middles of cells' quadrilaterals that lie on a lip.
+void add_quadrilaterals_on_lips(CellCentres& middles, const Snapshot& snapshot,
+                                const std::vector<Sample>& samples);
 
 }  // namespace cleft

@@ -56,10 +56,12 @@ void place_fronts(std::vector<double>& tip, const OpenPairs& open) {
     std::vector<Square> squares;
     for (std::size_t p = 0; p < count; ++p)
       if (u_of(p) > last - columns * column)
-        squares.push_back({u_of(p), (d.row(open.pairs[p][1]) - d.row(open.pairs[p][0])).squaredNorm()});
+        squares.push_back({open.round ? u_of(p) * u_of(p) : u_of(p),
+                           (d.row(open.pairs[p][1]) - d.row(open.pairs[p][0])).squaredNorm()});
     open.frames.forget(j);
-    if (places(squares, 0.1 * column) < fewest) continue;
-    const std::optional<double> front = zero_of_line(squares);
+    if (places(squares, 0.1 * column * (open.round ? last : 1)) < fewest) continue;
+    std::optional<double> front = zero_of_line(squares);
+    if (front && open.round) front = std::sqrt(*front);
     if (!front || *front > last + nearly_there * column) continue;
     tip[j] = std::max(*front, last + least * column);
   }

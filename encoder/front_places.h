@@ -17,12 +17,14 @@ struct OpenPairs {
   const std::vector<std::array<std::int32_t, 2>>& pairs;
   const std::vector<std::int32_t>& released;
   const StoredFrames<3>& frames;
+  bool round = false;  ///< whether u is the distance from the middle of a round front
 };
 
 /// Nodes tell only between which two columns a front is: `tip`, of each frame, is the first closed column.
 /// Where the break opens as the root of the distance from its front (Williams 1957), as its squares over u
 /// tell by being on a line, the front is where that line is 0: between the last open column and the first
-/// closed one. Other frames, in which few columns are open or they open in another way, keep their tip.
+/// closed one. Around a round front the squares are over those of u (Sneddon 1946). Other frames,
+/// in which few columns are open or they open in another way, keep their tip.
 void place_fronts(std::vector<double>& tip, const OpenPairs& open);
 
 }  // namespace cleft

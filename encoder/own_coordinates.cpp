@@ -67,14 +67,26 @@ std::array<Interval, 2> OwnCoordinates::extent() const {
   return extent;
 }
 
-/// Around a front, the angle of a node near its ends is known with a turn more or less.
+/// Around a front, the angle of a node near its ends is known with a turn more or less, and a node on the
+/// axis is at all angles.
 void OwnCoordinates::add_turned_places(const BreakMap& map) {
+  constexpr double on_axis = 1e-3, apart = 0.4;  // of the radius; radians
   if (!map.round()) return;
   around = map;
   turn = map.round()->whole_circle() ? 2 * std::numbers::pi * map.round()->radius : 0;
   for (std::size_t n = 0, count = places.size(); n < count; ++n)
     if (const auto again = map.again(places[n]))
       places.push_back(*again), frames.push_back(frames[n]), node.push_back(n);
+  const auto [first, last] = std::minmax_element(places.begin(), places.end(),
+                                                 [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+  const Interval angles{first->z, last->z};
+  const auto steps =
+      static_cast<int>(std::ceil((angles.back - angles.front) / (apart * map.round()->radius)));
+  for (std::size_t n = 0, count = frames.size(); n < count && node[n] == n; ++n)
+    for (int i = 0; places[n].x < on_axis * map.round()->radius && i <= steps; ++i) {
+      places.push_back({places[n].x, places[n].y, angles.front + (angles.back - angles.front) * i / steps});
+      frames.push_back(frames[n]), node.push_back(n);
+    }
 }
 
 /// Frames depend on the place along the cut alone.

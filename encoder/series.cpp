@@ -327,6 +327,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   } else {
     centres = cell_centres(s, samples);
     if (samples.size() <= few_nodes) middles = edge_middles(s, samples), middles_hold = s.source.has_value();
+    if (round && middles_hold) add_quadrilaterals_on_lips(middles, s, samples);
     if (own) {
       own->place_around_front(reader.snapshot(), centres);
       own->place_around_front(reader.snapshot(), middles);
@@ -344,8 +345,8 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   if (s.source)
     add_start(quantities, closed, s.frames(), largest_displacement, taken, at_nodes, node_samples().size());
   derivatives = derivatives_of(reader, taken);
-  const OpenPairs open{samples, pairs, released, frames};
-  const bool told = s.source && !s.counting && largest_displacement > 0;
+  const OpenPairs open{samples, pairs, released, frames, round};
+  const bool told = s.source && largest_displacement > 0;
   geometry = geometry_of(s, parted(pairs, frames, largest_displacement), told ? &open : nullptr);
   if (s.counting && s.source && s.source->break_extent.size() >= 8)
     front_kinks = cleft::front_kinks(geometry, s.source->break_extent, times);

@@ -50,8 +50,39 @@ std::vector<Point2> hull_of(std::vector<Point2> points) {
   return hull;
 }
 
+/// The longer axis of a hull that is round and longer than wide, by its second moments: the smallest
+/// rectangle around corners on an ellipse stands askew. None where it has straight sides, or is a circle.
+/// `size`: of the rectangle.
+std::optional<Point2> axes_of_round(const std::vector<Point2>& hull, double size) {
+  constexpr double longest_side = 0.4, fullest = 0.9, circle = 1.1;
+  double area = 0, longest = 0, xx = 0, xy = 0, yy = 0;
+  Point2 centre{0, 0};
+  const auto each_triangle = [&](const auto& use) {
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
+      use(a, b, (a.x * b.y - b.x * a.y) / 2);
+    }
+  };
+  each_triangle([&](const Point2& a, const Point2& b, double part) {
+    area += part, longest = std::max(longest, std::hypot(b.x - a.x, b.y - a.y));
+    centre.x += part * (a.x + b.x) / 3, centre.y += part * (a.y + b.y) / 3;
+  });
+  if (!(area > 0) || longest > longest_side * size || area > fullest * size * size) return {};
+  centre.x /= area, centre.y /= area;
+  each_triangle([&](const Point2& a, const Point2& b, double part) {
+    xx += part * (a.x * a.x + a.x * b.x + b.x * b.x) / 6,
+        yy += part * (a.y * a.y + a.y * b.y + b.y * b.y) / 6;
+    xy += part * (2 * a.x * a.y + a.x * b.y + b.x * a.y + 2 * b.x * b.y) / 12;
+  });
+  xx -= area * centre.x * centre.x, yy -= area * centre.y * centre.y, xy -= area * centre.x * centre.y;
+  const double middle = (xx + yy) / 2, off = std::hypot((xx - yy) / 2, xy);
+  if (middle + off < circle * circle * (middle - off)) return {};
+  const double angle = std::atan2(2 * xy, xx - yy) / 2;
+  return Point2{std::cos(angle), std::sin(angle)};
+}
+
 /// Along the sides of the smallest rectangle around the points, seen along `normal`, the longer one first; a
-/// side of it lies on a side of the hull.
+/// side of it lies on a side of the hull. Of points in an ellipse, its axes.
 std::array<Vec3, 2> sides_of_rectangle(const std::vector<Vec3>& points, const Vec3& normal) {
   const Vec3 aside = std::abs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 x = normalized(aside - dot(aside, normal) * normal), y = cross(normal, x);
@@ -72,25 +103,37 @@ std::array<Vec3, 2> sides_of_rectangle(const std::vector<Vec3>& points, const Ve
       if (p < q * (1 - 1e-9)) std::swap(best[0], best[1]);
     }
   }
+  if (const auto axes = axes_of_round(hull, std::sqrt(least))) {
+    best[0] = (*axes).x * x + (*axes).y * y;
+    best[1] = cross(normal, best[0]);
+  }
   return {snapped(best[0]), snapped(best[1])};
 }
 
 /// Makes `u` exactly orthogonal to the unit vector `v`.
 Vec3 orthogonal(const Vec3& u, const Vec3& v) { return normalized(u - dot(u, v) * v); }
 
-/// Whether the pairs open against u: later ones at smaller u.
-bool opens_backwards(const Break& found, const SourceMesh& mesh, const Vec3& u) {
-  const auto count = static_cast<double>(found.pairs.size());
-  const auto place = [&](std::size_t p) { return dot(u, mesh.points[found.pairs[p][0]]); };
-  double mean_place = 0, mean_frame = 0, covariance = 0, places = 0, frames = 0;
+/// Whether the pairs open against u: later ones at smaller u. Those that never open tell only where all
+/// others open at once, since they may lie beyond another arm. `frames`: never.
+bool opens_backwards(const Break& found, const SourceMesh& mesh, std::int32_t frames, const Vec3& u) {
+  const auto opens = [&](std::int32_t first) { return first < frames; };
+  std::int32_t first = frames, last = 0;
+  for (const std::int32_t frame : found.first_frame)
+    if (opens(frame)) first = std::min(first, std::max(frame, 1)), last = std::max(last, frame);
+  std::vector<double> place, frame;
   for (std::size_t p = 0; p < found.pairs.size(); ++p)
-    mean_place += place(p) / count, mean_frame += found.first_frame[p] / count;
-  for (std::size_t p = 0; p < found.pairs.size(); ++p) {
-    const double x = place(p) - mean_place, f = found.first_frame[p] - mean_frame;
-    covariance += x * f, places += x * x, frames += f * f;
+    if (opens(found.first_frame[p]) || last <= first)
+      place.push_back(dot(u, mesh.points[found.pairs[p][0]])), frame.push_back(found.first_frame[p]);
+  const auto count = static_cast<double>(place.size());
+  double mean_place = 0, mean_frame = 0, covariance = 0, places = 0, frames_squared = 0;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    mean_place += place[i] / count, mean_frame += frame[i] / count;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const double x = place[i] - mean_place, f = frame[i] - mean_frame;
+    covariance += x * f, places += x * x, frames_squared += f * f;
   }
   return covariance <
-         -0.1 * std::sqrt(places * frames);  // both ways at once, like a crack's two ends, is neither
+         -0.1 * std::sqrt(places * frames_squared);  // both ways at once, like a crack's two ends, is neither
 }
 
 /// How much of the differences between the frames in which pairs open the best parabola over their places
@@ -174,7 +217,7 @@ Placement placement_on(Break& found, const SourceMesh& mesh, std::int32_t frames
     open_above = reaches_a_face(w);
     u = cross(plane.normal, w);
   }
-  if (opens_backwards(found, mesh, u)) {
+  if (opens_backwards(found, mesh, frames, u)) {
     u = -u;
     plane = {-plane.normal, -plane.offset};
     for (NodePair& pair : found.pairs) std::swap(pair[0], pair[1]);

@@ -159,6 +159,37 @@ TEST_F(FinerMesh, OfACurvedBreakOpensAsThatOfTheSeries) {
   }
 }
 
+/// Where the front is within the elements, and beside the middle, which is at all angles.
+TEST_F(FinerMesh, OfRoundCracksOpensAsThatOfTheSeries) {
+  for (const char* name : {"penny crack inside the body", "elliptic crack inside the body, coarse"}) {
+    for (const auto* file : {"case.h5", "case.dffd"}) std::filesystem::remove(folder / file);
+    CrackedBody body = body_with_curved_break(name);
+    if (body.a.size() == 25) body.times = planes(0, 5.4, 6);
+    encode(body);
+    const Interpolated interpolated(body);
+    CrackedBody fine = body;
+    for (auto* planes : {&fine.a, &fine.b, &fine.c}) *planes = halved(*planes);
+    const std::string mesh = std::string(name).substr(0, 5);
+    expect_success(decode(fine.series(), mesh));
+    const ImportedSeries decoded(folder / (mesh + "_on.pvd"), parse_fields({"displacement"}));
+    const std::vector<CrackedBody::Node> nodes = fine.nodes();
+    double worst = 0, largest = 0;
+    for (std::size_t j = 0; j < body.times.size(); ++j) {
+      const std::vector<double> values = decoded.frame(j)[0];
+      for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const auto& [abc, side] = nodes[n];
+        const auto exact = [&](const Vec3& at, int of) { return body.displacement(at, of, body.times[j]); };
+        const double of_series = norm(interpolated.at(abc, side, exact) - exact(abc, side));
+        largest = std::max(largest, norm(exact(abc, side)));
+        const Vec3 d{values[3 * n], values[3 * n + 1], values[3 * n + 2]};
+        worst = std::max(worst, norm(d - exact(abc, side)) - of_series);
+      }
+    }
+    std::printf("%s: %.4f\n", name, worst / largest);
+    EXPECT_LE(worst, 3 * tolerance * largest) << name;
+  }
+}
+
 /// The faces of the crack are part of the skin, and lie in the break: they are on the side of the skin with
 /// which they hang together.
 TEST_F(FinerMesh, OfASkinHasTheFacesOfACrackOnBothSides) {
