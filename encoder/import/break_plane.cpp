@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/import/both_ends.h"
 #include "encoder/import/boundary.h"
 #include "encoder/import/break_components.h"
 #include "encoder/import/break_surface.h"
@@ -91,10 +92,12 @@ class Search {
 
   const Groups& groups() const { return groups_; }
 
-  /// Breaks that do not touch, and arms of those that branch; none where all is one break.
+  /// Breaks that do not touch, and arms of those that branch or grow both ways; none where all is one break.
   std::vector<BreakComponent> components() const {
     if (groups_.empty()) return {};
-    auto list = break_components(mesh_, groups_, partings_, static_cast<std::int32_t>(series_.frames()));
+    auto list = split_at_middle(
+        mesh_, groups_, partings_,
+        break_components(mesh_, groups_, partings_, static_cast<std::int32_t>(series_.frames())));
     if (list.size() < 2) list.clear();
     return list;
   }

@@ -186,13 +186,16 @@ std::optional<Onward> onward(const SourceMesh& mesh, const Break& other, const B
 }
 
 /// Pairs of other arms that lie on the surface of this one, or on arms that leave it onward: as far beyond
-/// its end as they are from there.
+/// its end as they are from there. Those alone where its front comes from or goes to, which open before all
+/// of it or after: others have a front of their own, that moves away from this one or toward it.
 BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::size_t arm,
                  const OwnPlace& own) {
   const Break& found = breaks[arm];
   const BreakExtent& extent = *own.source.extent;
   const double near = (found.curved ? 100 : 1) * in_plane(mesh), slack = in_plane(mesh);
   BeyondArm result{extent.joined[1]};
+  if (found.first_frame.empty()) return result;
+  const auto [earliest, latest] = std::minmax_element(found.first_frame.begin(), found.first_frame.end());
   for (std::size_t b = 0; b < breaks.size(); ++b) {
     if (b == arm || found.junctions.empty() || breaks[b].junctions.empty()) continue;
     const std::optional<Onward> on = onward(mesh, breaks[b], found, own.source);
@@ -204,7 +207,10 @@ BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::
       if (!on_surface && !on) continue;
       const double way = on ? std::hypot(at.x - on->from.x, at.y - on->from.y) : 0;
       if (!on_surface && way <= slack) continue;
-      result.u.push_back(on_surface ? at.x : on->from.x + (on->at_end ? way : -way));
+      const double u = on_surface ? at.x : on->from.x + (on->at_end ? way : -way);
+      const bool before = 2 * u < extent.along.front + extent.along.back;
+      if (before ? breaks[b].first_frame[p] >= *earliest : breaks[b].first_frame[p] <= *latest) continue;
+      result.u.push_back(u);
       result.first_frame.push_back(breaks[b].first_frame[p]);
     }
   }

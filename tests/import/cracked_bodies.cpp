@@ -203,6 +203,15 @@ std::vector<CrackedBody> cracked_bodies() {
   };
   rows.push_back(posed(with_body(penny), penny.name, Pose::random(3)));
 
+  CrackedBody oval = named(penny, "elliptic crack inside the body, coarse");
+  oval.a = oval.c = planes(-15, 15, 16), oval.b = planes(-12, 12, 10);
+  oval.times = planes(0, 5.7, 6);
+  oval.place = [of = penny.place](const Vec3& x) {
+    const Vec3 p = of(x);
+    return Vec3{2 * p.x, p.y, p.z};
+  };
+  rows.push_back(posed(with_body(oval), oval.name, Pose::random(8)));
+
   // Half a disc, wider than deep by 1.5.
   CrackedBody elliptic = named(penny, "half elliptic crack at a face");
   elliptic.c = planes(-15, 0, 12);
@@ -379,6 +388,21 @@ std::vector<CrackedBody> bodies_of_several_cracks() {
   CrackedBody flat = two_edge_cracks("2D, two parallel cracks", {-4, 4}, 0.5);
   flat.c = {0};
   rows.push_back(flat);
+
+  CrackedBody both = named(edge_crack(), "from its middle to both ends, turned");
+  both.a = planes(-24, 24, 40), both.b = planes(-16, 16, 26), both.c = planes(-4, 0, 3);
+  both.doubled = [](const Vec3& x) { return std::abs(x.x) < 17; };
+  both.times = planes(0, 10, 10);
+  both.displacement = [](const Vec3& x, int side, double t) {
+    return Vec3{0, 0.02 * t * around_slit(x.x, x.y, 0.9 + 1.4 * t, side), 0};
+  };
+  rows.push_back(posed(both, both.name, Pose::random(11)));
+  CrackedBody faster = named(both, "2D, to both ends, to one of them faster");
+  faster.a = planes(-24, 24, 60), faster.b = planes(-16, 16, 40), faster.c = {0};
+  faster.displacement = [](const Vec3& x, int side, double t) {
+    return Vec3{0, 0.02 * t * around_slit(x.x - 0.25 * t, x.y, 0.9 + 1.1 * t, side), 0};
+  };
+  rows.push_back(faster);
 
   rows.push_back(branch());
   CrackedBody flat_branch = named(branch(), "2D, T");
