@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "base/stations.h"
+#include "explorer/wound/corner_lean.h"
 #include "explorer/wound/membrane_relief.h"
 #include "explorer/wound/room.h"
 
@@ -18,8 +20,6 @@ namespace {
 constexpr double most = 3;
 /// Of a cut's path, in which the relief is taken as linear: a fiftieth of it turns amplitudes by little.
 constexpr int steps = 48;
-/// Of the displacement across: lips shift along the cut by no more, and lean by no more.
-constexpr double most_shift = 0.5, most_lean = 1;
 
 /// How far lips lean in all, over how far the other cut shears the tissue above the bottom: of simulated
 /// parallel cuts 10 to 60 mm long, 3 and 5 mm deep and 4 to 20 mm apart, in tissue of 0.008 to 0.05 MPa.
@@ -112,7 +112,7 @@ std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts) {
         const double fades = lean_fades * depth / std::abs(sine);
         const auto inside = [fades](double at, double length) { return fades < at && at < length - fades; };
         if (inside(s, cut.complete()) && inside(other_s, other.complete()))
-          found.push_back({i, j, s, fades, sine > 0 ? 1. : -1.});
+          found.push_back({i, j, s, other_s, fades, sine > 0 ? 1. : -1.});
       }
     }
   return found;
@@ -156,24 +156,28 @@ namespace {
 class AtStations {
  public:
   explicit AtStations(const std::vector<const Wound*>& cuts)
-      : cuts_(cuts), alone_(cuts.size()), leaning_(cuts.size()) {
+      : cuts_(cuts), crossings_(crossings_of(cuts)), alone_(cuts.size()), leaning_(cuts.size()) {
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       const Wound& cut = *cuts[i];
       Amplitude& own = alone_[i];
-      for (const Incision::ChainVertex& c : cut.incision->chain()) {
-        const double s = c.s * cut.scale();
+      for (const auto& [s, vertex] : stations_of(i)) {
         if (!own.stations.empty() && s <= own.stations.back()) continue;
-        const Vec3 normal = cut.volume.skin_frame(c.s).across;
+        const std::size_t station = own.stations.size();
+        own.stations.push_back(s), leaning_[i].push_back(leaning_at(s, cut));
+        if (!vertex) {
+          between_.emplace_back(i, station);
+          continue;
+        }
+        const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
         for (std::size_t j = 0; j < cuts.size(); ++j) {
           if (j == i) continue;
-          const std::optional<ActiveVertex> at = cuts[j]->volume.locate(c.left);
+          const std::optional<ActiveVertex> at = cuts[j]->volume.locate(*vertex);
           if (!at) continue;
           const bool complete = j + 1 < cuts.size();
-          places_.push_back({i, j, own.stations.size(), at->s,
+          places_.push_back({i, j, station, at->s,
                              complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
                              normal});
         }
-        own.stations.push_back(s), leaning_[i].push_back(leaning_at(s, cut));
       }
       own.values.assign(own.stations.size(), 1);
       own.leans = own.shifts = std::vector<double>(own.stations.size(), 0);
@@ -182,20 +186,29 @@ class AtStations {
 
   std::vector<Amplitude> with_blade_at(double blade, const std::vector<Amplitude>& in_membrane) const {
     std::vector<Amplitude> result = alone_;
+    for (const Place& place : places_) {
+      const double shear = place.by + 1 < cuts_.size()
+                               ? place.shear
+                               : shear_across(*cuts_[place.by], place.at, place.normal, blade);
+      double& lean = result[place.cut].leans[place.station];
+      lean += leaning_[place.cut][place.station] * shear * std::min(most, in_membrane[place.by].at(place.s));
+      lean = std::clamp(lean, -most_lean, most_lean);
+    }
+    for (const auto& [cut, station] : between_) {
+      const std::vector<double>& s = result[cut].stations;
+      std::vector<double>& lean = result[cut].leans;
+      const std::size_t next = next_vertex(cut, station);
+      lean[station] = std::lerp(lean[station - 1], lean[next],
+                                (s[station] - s[station - 1]) / (s[next] - s[station - 1]));
+    }
+    for (const Crossing& crossing : crossings_)
+      lean_by_corners(crossing, lean_at_crossing(crossing, cuts_, blade, in_membrane), result[crossing.cut]);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
         const Amplitude::At there = in_membrane[i](result[i].stations[k]);
         result[i].values[k] = std::min(most, there.value);
         result[i].shifts[k] = std::clamp(there.shift, -most_shift, most_shift);
       }
-    for (const Place& place : places_) {
-      const double shear = place.by + 1 < cuts_.size()
-                               ? place.shear
-                               : shear_across(*cuts_[place.by], place.at, place.normal, blade);
-      double& lean = result[place.cut].leans[place.station];
-      lean += leaning_[place.cut][place.station] * shear * result[place.by].at(place.s);
-      lean = std::clamp(lean, -most_lean, most_lean);
-    }
     return result;
   }
 
@@ -209,10 +222,45 @@ class AtStations {
     Vec3 normal;  // across the own path
   };
 
+  /// The lips of a cut's chain, and places without: where lips change the side to which they lean.
+  std::vector<std::pair<double, std::optional<int>>> stations_of(std::size_t cut) const {
+    std::vector<std::pair<double, std::optional<int>>> result;
+    for (const Incision::ChainVertex& c : cuts_[cut]->incision->chain())
+      result.emplace_back(c.s * cuts_[cut]->scale(), c.left);
+    const double first = result.empty() ? 0 : result.front().first,
+                 last = result.empty() ? 0 : result.back().first;
+    for (const Crossing& crossing : crossings_)
+      if (crossing.cut == cut)
+        for (const double s : {crossing.s - crossing.fades, crossing.s, crossing.s + crossing.fades})
+          if (first < s && s < last) result.emplace_back(s, std::nullopt);
+    std::stable_sort(result.begin(), result.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    return result;
+  }
+
+  /// The first station behind one without lips that has some.
+  std::size_t next_vertex(std::size_t cut, std::size_t station) const {
+    do ++station;
+    while (std::ranges::binary_search(between_, std::pair(cut, station)));
+    return station;
+  }
+
+  /// Next to a crossing lips lean as its corners do.
+  static void lean_by_corners(const Crossing& crossing, const CornerLean& corners, Amplitude& cut) {
+    for (std::size_t k = 0; k < cut.stations.size(); ++k) {
+      const double from = cut.stations[k] - crossing.s, away = std::abs(from), there = corners.at(away);
+      const double own = from < 0 ? corners.before : corners.after;
+      cut.leans[k] = std::clamp((1 - there) * cut.leans[k] + there * own, -most_lean, most_lean) *
+                     std::lerp(1., std::min(1., away / crossing.fades), corners.share);
+    }
+  }
+
   const std::vector<const Wound*>& cuts_;
+  std::vector<Crossing> crossings_;
   std::vector<Amplitude> alone_;  // stations, with 1 at all of them
   std::vector<Place> places_;
-  std::vector<std::vector<double>> leaning_;  // at the stations
+  std::vector<std::pair<std::size_t, std::size_t>> between_;  // a cut, and a station of it without lips
+  std::vector<std::vector<double>> leaning_;                  // at the stations
 };
 
 }  // namespace

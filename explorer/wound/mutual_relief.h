@@ -29,12 +29,16 @@ struct Amplitude {
   double at(double s) const { return (*this)(s).value; }
 };
 
+/// Of the displacement across: lips shift along the cut by no more, and lean by no more.
+constexpr double most_shift = 0.5, most_lean = 1;
+
 /// Where a cut is crossed by another one.
 struct Crossing {
   std::size_t cut, other;
-  double s;       ///< mm along the cut
-  double fades;   ///< mm: over which the lips of this cut change the side to which they lean
-  double toward;  ///< 1: with s the cut goes to v > 0 of the other one, or -1
+  double s;        ///< mm along the cut
+  double other_s;  ///< and along the other one
+  double fades;    ///< mm: over which the lips of this cut change the side to which they lean
+  double toward;   ///< 1: with s the cut goes to v > 0 of the other one, or -1
 };
 std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts);
 

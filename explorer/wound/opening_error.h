@@ -23,8 +23,8 @@ struct OpeningError {
 /// What the surroundings of a cut, and what is known of it as a whole, add to its error.
 struct Neighbourhood {
   double nearest_cut = std::numeric_limits<double>::infinity();  ///< mm: beside it; infinite: there is none
-  /// Where it meets another cut, but crosses none at a right angle in a tension that turns: the ratio of the
-  /// tension along that cut to the tension across it, above 0; 0 if it meets none.
+  /// Where it meets another cut, but crosses none in a tension that turns: the ratio of the tension along
+  /// that cut to the tension across it, above 0; 0 if it meets none.
   double junction_tension = 0;
   double length_defect = 0;  ///< excess of an endless cut's opening over the field's, relative to it
   double field =

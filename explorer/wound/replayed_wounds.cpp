@@ -61,25 +61,29 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
 void ReplayedWounds::bound_vertices() {
   bounds_.assign(vertex_count(), 0);
   for (std::size_t k = 0; k < size(); ++k) {
+    // Of each later cut's relief the stations are others: they are linear between all of these.
     Amplitude largest;
     for (std::size_t later = std::max<std::size_t>(k, 1); later < size(); ++later)
-      for (std::size_t step = 0; step < relief(later).steps(); ++step) {
-        const Amplitude& one = relief(later).amplitude(step, k);
-        const std::size_t stations = one.stations.size();
-        const std::vector<double> none(stations, 0.);
-        if (largest.values.empty())
-          largest = {one.stations, std::vector(stations, k == 0 ? 1. : 0.), none, none};
+      if (relief(later).steps() > 0) {
+        const std::vector<double>& more = relief(later).amplitude(0, k).stations;
+        largest.stations.insert(largest.stations.end(), more.begin(), more.end());
+      }
+    std::ranges::sort(largest.stations);
+    const std::size_t stations = largest.stations.size();
+    largest.values.assign(stations, k == 0 ? 1. : 0.);
+    largest.leans = largest.shifts = std::vector<double>(stations, 0.);
+    for (std::size_t later = std::max<std::size_t>(k, 1); later < size(); ++later)
+      for (std::size_t step = 0; step < relief(later).steps(); ++step)
         for (std::size_t i = 0; i < stations; ++i) {
-          const Amplitude::At there = one(one.stations[i]);
+          const Amplitude::At there = relief(later).amplitude(step, k)(largest.stations[i]);
           largest.values[i] = std::max(largest.values[i], there.value);
           largest.leans[i] = std::max(largest.leans[i], std::abs(there.lean));
           largest.shifts[i] = std::max(largest.shifts[i], std::abs(there.shift));
         }
-      }
     const Replay& replay = whole_.replays[k];
     for (std::size_t i = 0; i < replay.active().size(); ++i) {
       const BesideCut& at = whole_.beside[k][i];
-      const Amplitude::At there = largest.values.empty() ? Amplitude::At{1, 0, 0} : largest(at.s);
+      const Amplitude::At there = largest.stations.empty() ? Amplitude::At{1, 0, 0} : largest(at.s);
       // The norm of A I + l a^T, of perpendicular vectors whose lengths have the product 2 half.
       const double half = norm(at.across) * norm(at.added(there)) / 2;
       bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, there.value));

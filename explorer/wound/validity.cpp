@@ -135,8 +135,8 @@ struct Junction {
   double sine;      ///< of the angle between the two
   double from_end;  ///< mm: of the own path, to its nearer end
 
-  /// Where it crosses the other at a right angle, all four corners open as the cuts themselves do.
-  bool is_square_crossing(double depth) const { return sine >= least_junction_sine && from_end > depth / 2; }
+  /// Where it crosses the other, all four corners open as the cuts themselves do (corner_lean.h).
+  bool is_crossing(double depth) const { return from_end > depth / 2; }
 };
 
 std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::size_t i) {
@@ -215,7 +215,7 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     double judged = 0;
     for (const Junction& x : junctions[i]) {
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
-      if (!x.is_square_crossing(field.cut().depth)) judged = std::max(judged, x.tension);
+      if (!x.is_crossing(field.cut().depth)) judged = std::max(judged, x.tension);
     }
     const bool known = turned || pulled_alike(field);
     const double against_first = v.junction_tension ? 0 : angle_between(*cuts[0], *cuts[i]);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 
+#include "explorer/wound/corner_lean.h"
 #include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/fields.h"
@@ -155,7 +156,7 @@ TEST(MembraneRelief, LipsThatLeanChangeSidesWhereCutsCross) {
 }
 
 /// Both cuts part the corners: of two that face each other the lips rise, and of the others they sink.
-TEST(MembraneRelief, CornersOfACrossingLeanAsTheLipsBesideThem) {
+TEST(MembraneRelief, CornersOfACrossingLeanAsTheirAnglesTell) {
   const Field field = ellipses();
   CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
   std::vector<std::unique_ptr<Incision>> made;
@@ -166,20 +167,53 @@ TEST(MembraneRelief, CornersOfACrossingLeanAsTheLipsBesideThem) {
   std::vector<Wound> opened;
   opened.reserve(2);
   for (const auto& cut : made) opened.emplace_back(*cut, turning(field), 1);
+  const std::vector<const Wound*> both = {&opened[0], &opened[1]};
+  const double end = made[1]->path().length();
+  const auto crossing = crossings_of(both).back();
+  ASSERT_EQ(crossing.cut, 1u);
+  const double lean = lean_at_crossing(crossing, both, end, membrane_relief(both, {end}).front()).before,
+               alone = field.displacement({0, 0, 0}, Side::right, length).y -
+                       field.displacement({0, 0, 0}, Side::left, length).y;
+  ASSERT_GT(std::abs(lean * alone), 0.05);
   const ReplayedWounds wounds(std::move(opened));
   std::vector<Vec3> now(wounds.vertex_count());
   wounds.positions(wounds.duration(), now);
-  std::vector<double> corners, further;  // left above right, at the crossing and 1 to 2 mm behind it
+  std::vector<double> corners, further;  // right above left, at the crossing and 4 mm and more behind it
   for (const auto& c : made[1]->chain()) {
-    const double from = c.s - 10 * std::numbers::sqrt2, higher = now[c.left].z - now[c.right].z;
+    const double from = c.s - 10 * std::numbers::sqrt2, higher = now[c.right].z - now[c.left].z;
     if (std::abs(from) < 0.02) corners.push_back(higher);
-    if (from > 1 && from < 2) further.push_back(higher);
+    if (from > 4 && from < 6) further.push_back(std::abs(higher));
   }
   ASSERT_EQ(corners.size(), 2u);
   ASSERT_FALSE(further.empty());
-  EXPECT_GT(std::abs(further.front()), 0.1);
-  EXPECT_NEAR(std::max(corners[0], corners[1]), std::abs(further.front()), 0.5 * std::abs(further.front()));
+  ASSERT_GT(further.front(), 3 * std::abs(lean * alone));
+  EXPECT_NEAR(std::max(corners[0], corners[1]), std::abs(lean * alone), 0.2 * further.front());
   EXPECT_NEAR(corners[0], -corners[1], 0.3 * std::abs(corners[0]));
+}
+
+/// A vertex is bounded by what all of them move it by, whichever cuts cross an earlier one when.
+TEST(MembraneRelief, NothingMovesFurtherThanItsBoundWhereCutsCross) {
+  const Field field = ellipses();
+  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
+  std::vector<std::unique_ptr<Incision>> made;
+  for (const auto& path : {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 2, 2.1), line(2, -6, 14, 6)}) {
+    made.push_back(std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{}));
+    made.back()->advance_to(made.back()->path().length());
+  }
+  std::vector<Wound> opened;
+  opened.reserve(3);
+  for (const auto& cut : made) opened.emplace_back(*cut, turning(field), 1);
+  const ReplayedWounds wounds(std::move(opened));
+  std::vector<Vec3> all(wounds.vertex_count()), few(wounds.vertex_count());
+  const double detail = 0.05;
+  const auto level = wounds.level(detail);
+  EXPECT_GT(level.left_out(), 0u);
+  for (const double part : {0.3, 0.6, 0.8, 1.}) {
+    wounds.positions(part * wounds.duration(), all);
+    std::copy(wounds.rest().begin(), wounds.rest().end(), few.begin());
+    wounds.positions(part * wounds.duration(), level, few);
+    for (std::size_t v = 0; v < all.size(); ++v) ASSERT_LE(norm(all[v] - few[v]), detail + 1e-9) << v;
+  }
 }
 
 }  // namespace

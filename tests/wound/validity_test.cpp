@@ -70,8 +70,8 @@ TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance)
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
 }
 
-TEST(Validity, ACrossingAtASlantIsJudgedByTheTensionToo) {
-  EXPECT_NEAR(two_cuts(pulled(0.02, 0.02), 5, 45, true)[1].expected_error.largest, 0.31, 0.01);
+TEST(Validity, ACrossingAtASlantIsJudgedAlikeInAnyTension) {
+  EXPECT_LT(two_cuts(pulled(0.02, 0.02), 5, 45, true)[1].expected_error.largest, 0.1);
   EXPECT_LT(two_cuts(pulled(0.01, 0.03), 5, 45, true)[1].expected_error.largest, 0.1);
 }
 

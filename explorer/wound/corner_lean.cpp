@@ -1,0 +1,91 @@
+#include "explorer/wound/corner_lean.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cleft {
+
+namespace {
+
+using Vector = Eigen::Vector2d;
+
+/// How far a corner of a right angle rises over the way that it draws back, with a cut as deep as the skin is
+/// thick, and the power of the depth over that; and by how much more with the cosine of the angle. Of
+/// simulated crossings at 30, 45, 60 and 75 degrees, pulled 1 : 3 and alike, with cuts 2, 3 and 5 mm deep, in
+/// tissue of 0.008, 0.02 and 0.05 MPa, which makes no difference.
+constexpr double rises = 0.357, with_depth = 0.36, with_cosine = 0.13;
+constexpr double usual_thickness = 1.5;
+/// Depths of the cut along it.
+constexpr double corner_reach = 2. / 3;
+/// Depths that a cut goes beyond a crossing where its corners are free.
+constexpr double freed = 1;
+
+/// How a cut opens at a crossing.
+struct Opening {
+  double across_alone = 0;  ///< mm
+  Vec3 between_lips;        ///< from left to right, in space
+  PathFrame frame;
+  double beyond = 0;  ///< mm: from the crossing to the nearer end of what is cut
+};
+
+Opening opening_of(const Wound& cut, double s, double blade, const Amplitude& in_membrane) {
+  const CanonicalCut& canonical = cut.field.shape().cut();
+  const auto [u, time_offset] = canonical_place(s, cut.complete(), canonical);
+  const double t = std::clamp(blade + time_offset, 0., canonical.length);
+  Opening result;
+  result.frame = cut.volume.skin_frame(s / cut.scale());
+  result.beyond = std::min(s, blade - s);
+  if (result.beyond <= 0) return result;
+  const Vec3 alone = cut.field.displacement({u, 0, 0}, Side::right, t, s) -
+                     cut.field.displacement({u, 0, 0}, Side::left, t, s);
+  const Amplitude::At there = in_membrane(s);
+  result.across_alone = alone.y;
+  result.between_lips = (there.value * alone.x + std::clamp(there.shift, -most_shift, most_shift) * alone.y) *
+                            result.frame.along +
+                        there.value * alone.y * result.frame.across;
+  return result;
+}
+
+double depth_at(const Wound& cut, double s) {
+  return cut.incision->path().depth(s / cut.scale()) * cut.scale();
+}
+
+}  // namespace
+
+double CornerLean::at(double away) const { return share * std::exp(-away / reach); }
+
+CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
+                            const std::vector<Amplitude>& in_membrane) {
+  const auto opening = [&](std::size_t k, double s) {
+    return opening_of(*cuts[k], s, k + 1 < cuts.size() ? cuts[k]->complete() : blade, in_membrane[k]);
+  };
+  const Opening own = opening(crossing.cut, crossing.s), other = opening(crossing.other, crossing.other_s);
+  const double depth =
+      std::min(depth_at(*cuts[crossing.cut], crossing.s), depth_at(*cuts[crossing.other], crossing.other_s));
+  CornerLean result{0, 0, std::clamp(std::min(own.beyond, other.beyond) / (freed * depth), 0., 1.),
+                    corner_reach * depth};
+  if (!(own.across_alone > 0) || result.share == 0) return {0, 0, 0, result.reach};
+  const auto in_skin = [&](const Vec3& x) {
+    return Vector(dot(x, own.frame.along), dot(x, own.frame.across));
+  };
+  const Vector own_half = in_skin(own.between_lips) / 2,
+               other_half = crossing.toward * in_skin(other.between_lips) / 2,
+               other_ray = -crossing.toward * in_skin(other.frame.along).normalized();  // to v > 0
+  const auto& parameters = cuts[crossing.cut]->field.shape().parameters;
+  const double thickness = parameters.value_or(parameters->skin.thickness, usual_thickness),
+               of_right_angle = rises * std::pow(depth / thickness, with_depth);
+  // Of the piece before (-1) or behind (1) the other cut, and at v < 0 (-1) or v > 0 (1).
+  const auto height = [&](double behind, double side) {
+    const Vector along(behind, 0), other_edge = side * other_ray,
+                                   drawn_back = side * own_half + behind * other_half;
+    const double cosine = along.dot(other_edge);
+    return (of_right_angle + with_cosine * cosine) * drawn_back.dot((along + other_edge).normalized());
+  };
+  result.before = (height(-1, 1) - height(-1, -1)) / own.across_alone;
+  result.after = (height(1, 1) - height(1, -1)) / own.across_alone;
+  return result;
+}
+
+}  // namespace cleft

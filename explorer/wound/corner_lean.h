@@ -1,0 +1,24 @@
+// How lips lean where two cuts cross: there four pieces of skin have a corner each, which draws back from the
+// crossing and rises by what its angle tells, and lips are apart in height by what the corners to either side
+// of them are. That is not how they lean further along the cut, and may be the other way.
+#pragma once
+
+#include "explorer/wound/mutual_relief.h"
+
+namespace cleft {
+
+/// What lips of a cut do at a crossing.
+struct CornerLean {
+  double before, after;  ///< how the lips before and behind it lean (Amplitude::leans)
+  double share;          ///< 1; less where one of the cuts has not opened beyond the crossing's corners
+  double reach;          ///< mm along the cut, over which this falls by e
+
+  /// How far it counts so many mm from the crossing.
+  double at(double away) const;
+};
+
+/// Of the lips of `crossing.cut`, as the cuts open it in the membrane, with the blade of the last cut there.
+CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
+                            const std::vector<Amplitude>& in_membrane);
+
+}  // namespace cleft
