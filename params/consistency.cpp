@@ -208,10 +208,7 @@ class ConsistencyCheck {
     need(p_.skin.turning_stiffness == 0 || !p_.skin.initial_stress_stiffness,
          named(p_.skin.turning_stiffness) +
              ": is a part of skin.initial_stress_stiffness = true; set it to 0, or that to false");
-    const auto [uu, vv, uv] = p_.skin.prestress;
-    need(uu * vv >= uv * uv && uu >= 0 && vv >= 0,
-         "skin.prestress_u, _v, _uv = " + shortest(uu) + ", " + shortest(vv) + ", " + shortest(uv) +
-             " MPa: the skin would be compressed in some direction; a membrane carries tension only");
+    check_tension(p_, where_);
   }
 
   /// What the finite model does not have.
@@ -255,6 +252,14 @@ class ConsistencyCheck {
 };
 
 }  // namespace
+
+void check_tension(const Parameters& parameters, const std::string& where) {
+  const auto [uu, vv, uv] = parameters.skin.prestress;
+  if (uu * vv >= uv * uv && uu >= 0 && vv >= 0) return;
+  throw InputError(where + ": skin.prestress_u, _v, _uv = " + shortest(uu) + ", " + shortest(vv) + ", " +
+                   shortest(uv) +
+                   " MPa: the skin would be compressed in some direction; a membrane carries tension only");
+}
 
 void check_consistency(const Parameters& parameters, const std::string& where) {
   ConsistencyCheck(parameters, where).check();

@@ -11,6 +11,9 @@ namespace cleft {
 /// values.
 void check_consistency(const Parameters& parameters, const std::string& where);
 
+/// Throws InputError that names the prestress if it would compress the skin in some direction.
+void check_tension(const Parameters& parameters, const std::string& where);
+
 /// The approximate number of nodes of the mesh, before it is made. Throws InputError as check_consistency()
 /// does.
 double estimated_nodes(const Parameters& parameters);

@@ -10,6 +10,7 @@
 #include "explorer/commands/tension_options.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/io/mesh_file.h"
+#include "params/consistency.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
 
@@ -66,6 +67,7 @@ BodyRequest BodyOptions::request(double scale, const RecordedParameters& of_fiel
     request.parameters = parameters_of_body(of_field);
     for (const std::string& assignment : assignments) set_from_text(request.parameters, assignment, "--set");
   }
+  check_tension(request.parameters, case_file.empty() ? "--set" : case_file);
   if (reach < least_reach * request.parameters.mesh.element_size)
     throw InputError("--reach " + shortest(reach) + " mm: must be at least " + shortest(least_reach) +
                      " times mesh.element_size = " + shortest(request.parameters.mesh.element_size) + " mm");

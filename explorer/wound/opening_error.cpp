@@ -24,7 +24,7 @@ constexpr double of_tilt_family = 0.035;  // likewise
 constexpr double of_tilted_bend = 1.4, of_tilted_bend_in_curved_skin = 75;
 constexpr double of_shallow = 0.27, of_deep = 0.16;  // times the logarithm of depth over the canonical one
 constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: times the skin's curvatures
-constexpr double of_uneven = 1;  // of the skin: its distance from a quadric, in depths of the cut
+constexpr double of_uneven = 1;    // of the skin: its distance from a quadric, in depths of the cut
 constexpr double of_length = 0.1;  // times the part of the path beyond the canonical cut
 /// Of the error by the length, where the tension is that with which the whole path opens (path_opening.h).
 constexpr double of_length_turned = 0.4;

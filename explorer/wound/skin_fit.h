@@ -24,8 +24,8 @@ class SkinFit {
     Vec3 outward;  ///< unit, the normal
     double uu, vv,
         uv;  ///< 1/mm, curvature tensor along `along` and across it; positive where the skin bulges
-    /// mm: how far the vertices are from the quadric, root of the mean square; where the distance had to grow,
-    /// in proportion less.
+    /// mm: how far the vertices are from the quadric, root of the mean square; where the distance had to
+    /// grow, in proportion less.
     double uneven = 0;
   };
   /// Of a quadric through the vertices within `distance`, at most four times as much where they are too few.

@@ -123,6 +123,11 @@ TEST_F(BodyCommand, APathOffTheSurface) {
   expect_refused(options_, {"cut", "the path never touches the mesh", "must lie within"});
 }
 
+TEST_F(BodyCommand, TensionThatCompressesTheSkin) {
+  expect_refused(with(options_, {"--set", "skin.prestress_v=-0.03"}),
+                 {"--set", "skin.prestress_u, _v, _uv = 0.01, -0.03, 0 MPa", "compressed"});
+}
+
 TEST_F(BodyCommand, BoneAboveTheSkin) {
   expect_refused(with(options_, {"--bone", bone(3)}),
                  {"bone lies above the skin at (", "units and places of --bone"});
