@@ -49,6 +49,9 @@ struct Range {
   std::string shares = {};
   /// with = { ... }: further values of the cases that are varied alone.
   std::vector<std::pair<std::string, Value>> with = {};
+  /// alone = "NAME": varied with the others of that name, while all but these are in their middle; else
+  /// empty.
+  std::string group = {};
 
   /// The value `part` of `whole` steps along it; the ends exactly.
   double at(double part, double whole) const;

@@ -275,24 +275,29 @@ class SamplingReader {
     if (scale == "log" && (*from <= 0 || *to <= 0))
       throw InputError(here + ": from = " + shortest(*from) + ", to = " + shortest(*to) +
                        ": with scale = \"log\" both must be greater than 0");
-    const bool alone = read_alone(parameter, table);
+    const auto [alone, group] = read_alone(parameter, table);
     return {*from,
             *to,
             scale == "log",
             alone,
             read_shares(parameter, table, alone),
-            read_with(parameter, table, alone)};
+            read_with(parameter, table, alone),
+            group};
   }
 
-  bool read_alone(const Parameter& parameter, const toml::table& table) const {
+  /// Whether it is varied alone, and the group with which it is.
+  std::pair<bool, std::string> read_alone(const Parameter& parameter, const toml::table& table) const {
     const toml::node* node = table.get("alone");
-    if (!node) return false;
+    if (!node) return {false, ""};
     const std::string here = where(*node) + ": " + parameter.name + ": alone";
     if (!method_ || !method_->levels)
       throw InputError(here + ": is for sampling method \"sparse-grid\"; remove it");
+    if (const auto group = node->value_exact<std::string>(); group && !group->empty()) return {true, *group};
     const auto given = node->value_exact<bool>();
-    if (!given) throw InputError(here + ": must be true or false");
-    return *given;
+    if (!given)
+      throw InputError(here +
+                       ": must be true or false, or in quotes the name of a group that is varied together");
+    return {*given, ""};
   }
 
   std::string read_shares(const Parameter& parameter, const toml::table& table, bool alone) const {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -23,12 +24,14 @@ std::vector<double> added_nodes(int level) {
   return nodes;
 }
 
-/// Whether what is varied alone is, and whether a range that is not is at level 0 then.
+/// Whether what is varied alone is, but for the others of its group.
 bool are_allowed(const std::vector<int>& levels, const std::vector<Variation>& ranges) {
   std::size_t raised = 0, alone = 0;
+  std::set<std::string> groups;
   for (std::size_t k = 0; k < levels.size(); ++k)
-    if (levels[k] > 0) ++raised, alone += ranges[k].range->alone;
-  return alone == 0 || raised == 1;
+    if (levels[k] > 0) ++raised, alone += ranges[k].range->alone, groups.insert(ranges[k].range->group);
+  const bool of_one_group = alone == raised && groups.size() == 1 && !groups.begin()->empty();
+  return alone == 0 || raised == 1 || of_one_group;
 }
 
 double number_of(const Case& one, const Variation& variation) {
@@ -68,7 +71,8 @@ void for_each_sum(std::vector<int>& levels, std::size_t from, int total, const U
 /// The sparse grid of Smolyak (1963) with nested Chebyshev points: level 1 is the middle of all ranges and
 /// the ends of each, level 2 adds two points between on each and the ends of all pairs. Polynomials of as
 /// high a total degree as the level are exact between them. A higher level keeps the cases of the lower ones.
-/// What is varied alone has the nodes of one range, and no pairs; the middle is the case's own value.
+/// What is varied alone has the nodes of one range, and pairs within its group; the middle is the case's own
+/// value.
 std::vector<Case> sample_sparse_grid(const Study& study) {
   const std::vector<Variation> ranges = ranges_by_name(study);
   std::vector<Case> cases;

@@ -277,6 +277,26 @@ TEST(Sampling, ASparseGridHasSmolyaksPointsAndAHigherLevelKeepsThem) {
   EXPECT_TRUE(all.contains({0.5, 0.5, 0.853553390593}));
 }
 
+TEST(Sampling, AGroupThatIsVariedAloneHasPairsOfItsOwn) {
+  const auto cases = cases_of_text(
+      "[vary]\n'cut.curvature' = { from = -0.02, to = 0.02 }\n'skin.curvature_u' = { from = -0.02, to = 0.02 "
+      "}\n"
+      "'cut.tilt' = { from = -45, to = 45, alone = 'blade' }\n"
+      "'cut.depth' = { from = 2, to = 4, alone = 'blade' }\n"
+      "'cut.curvature_rate' = { from = -0.004, to = 0.004, alone = true }\n"
+      "[sampling]\nmethod = 'sparse-grid'\nlevel = 2\n");
+  ASSERT_EQ(cases.size(), 13u + (4 + 4 + 4) + 4);
+  int pairs = 0;
+  for (const Case& one : cases) {
+    const Parameters& p = one.parameters;
+    const bool shape = p.cut.curvature != 0 || p.skin.curvature_u != 0, rate = p.cut.curvature_rate != 0,
+               tilt = p.cut.tilt != 0, depth = p.cut.depth != 3;
+    EXPECT_LE(shape + rate + (tilt || depth), 1);
+    pairs += tilt && depth;
+  }
+  EXPECT_EQ(pairs, 4);
+}
+
 TEST(Sampling, WhatIsVariedAloneStartsFromItsOwnValueAndHasNoPairs) {
   const auto cases = cases_of_text(
       "[case]\npatch.height = 9\n[vary]\n'cut.depth' = { from = 2, to = 4 }\n"
@@ -313,7 +333,7 @@ TEST(Sampling, WhatIsVariedAloneStartsFromItsOwnValueAndHasNoPairs) {
   expect_message(
       "[vary]\n'cut.depth' = { from = 2, to = 4, alone = 1 }\n[sampling]\nmethod = 'sparse-grid'\nlevel = "
       "1\n",
-      {"line 2: cut.depth: alone: must be true or false"});
+      {"line 2: cut.depth: alone: must be true or false, or in quotes the name of a group"});
 }
 
 TEST(Sampling, RangesThatShareAreADiamond) {

@@ -1,7 +1,7 @@
 """Random bodies, cut along random paths: how far a family's replay is from the simulation of the very body, and how far
 it is expected to be.
 
-    tests/truth/random_bodies.py BIN FAMILY.dffd [--seeds FIRST LAST] [--keep DIR]
+    tests/truth/random_bodies.py BIN FAMILY.dffd [--seeds FIRST LAST] [--uneven] [--keep DIR]
 
 BIN is the folder of the commands. Each seed makes a plane, a cylinder, a sphere, a saddle, a torus or bumps, with radii of
 30 mm and more; a path that is straight, an arc, an S or free, with bends of 15 mm and more, as deep everywhere or deeper to
@@ -44,6 +44,20 @@ def surface(random):
         }[kind]
 
     return kind, height
+
+
+def uneven(height, random):
+    """With a dozen waves of 15 to 60 mm in all directions, each a twentieth to a hundredth of its length high."""
+    turn, phase = random.uniform(0, 2 * np.pi, (2, 12))
+    length = np.exp(random.uniform(np.log(15), np.log(60), 12))
+    high = length / 12 / random.uniform(20, 100)
+
+    def with_waves(x, y):
+        return height(x, y) + sum(
+            h * np.sin(2 * np.pi / l * (x * np.cos(t) + y * np.sin(t)) + p)
+            for h, l, t, p in zip(high, length, turn, phase))
+
+    return with_waves
 
 
 def write_surface(file, height, edge):
@@ -101,10 +115,12 @@ def write_path(file, height, random):
     return f"{kind}, {length:.0f} mm long, {depth[0]:.1f} to {depth[-1]:.1f} deep, tilted by {np.degrees(tilt):.0f}"
 
 
-def compare(seed, command, family, folder):
+def compare(seed, command, family, folder, is_uneven):
     """The body in words, and the figures of cleft cut; none where it has refused."""
     random = np.random.default_rng(seed)
     name, height = surface(random)
+    if is_uneven:
+        name, height = f"uneven {name}", uneven(height, np.random.default_rng([seed, 1]))
     mesh, path = f"{folder}/{seed}.obj", f"{folder}/{seed}.csv"
     write_surface(mesh, height, 1.7)
     what = f"{name}, {write_path(path, height, random)}"
@@ -128,6 +144,7 @@ def main():
     parser.add_argument("bin")
     parser.add_argument("family")
     parser.add_argument("--seeds", type=int, nargs=2, default=[0, 59])
+    parser.add_argument("--uneven", action="store_true", help="waves of 15 to 60 mm in the skin")
     parser.add_argument("--keep", help="folder for meshes, paths and wounds")
     options = parser.parse_args()
     os.environ.update(CLEFT_BIN=options.bin)
@@ -135,7 +152,8 @@ def main():
     print("| seed | body | opening, mm | error | expected | because |\n|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as scratch:
         for seed in range(options.seeds[0], options.seeds[1] + 1):
-            what, figures = compare(seed, f"{options.bin}/cleft-cut", options.family, options.keep or scratch)
+            what, figures = compare(seed, f"{options.bin}/cleft-cut", options.family, options.keep or scratch,
+                                    options.uneven)
             if figures is None:
                 print(f"| {seed} | {what} | refused | | | |", flush=True)
                 continue
