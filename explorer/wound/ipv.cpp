@@ -152,13 +152,15 @@ void IncisionVolume::find_tilts() {
         std::clamp(std::atan2(-dot(blade, skin.across), dot(blade, skin.outward)), -most_tilt, most_tilt));
   }
   const double reach = tilt_mean * field_.cut().depth / (scale_ * step);
-  const auto most = static_cast<std::size_t>(std::min(tilt_farthest * reach, pieces));
+  std::vector<double> weight;  // by the number of places between
+  for (double away = 0; away <= std::min(tilt_farthest * reach, pieces); ++away)
+    weight.push_back(std::exp(-away / reach));
   tilt_.clear();
   for (std::size_t i = 0; i < tilt.size(); ++i) {
-    double sum = 0, weights = 0;
-    for (std::size_t k = i - std::min(i, most); k < std::min(tilt.size(), i + most + 1); ++k) {
-      const double weight = std::exp(-std::abs(static_cast<double>(k) - static_cast<double>(i)) / reach);
-      sum += weight * tilt[k], weights += weight;
+    double sum = weight[0] * tilt[i], weights = weight[0];
+    for (std::size_t away = 1; away < weight.size(); ++away) {
+      if (away <= i) sum += weight[away] * tilt[i - away], weights += weight[away];
+      if (i + away < tilt.size()) sum += weight[away] * tilt[i + away], weights += weight[away];
     }
     tilt_.push_back(sum / weights);
   }
