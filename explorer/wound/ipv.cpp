@@ -286,13 +286,17 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
 
 /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two
 /// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut. A
-/// family's displacements are those under a blade whose tilt is smoothed far along the cut.
+/// family's displacements are those under a blade whose tilt is smoothed far along the cut. Lips of a cut
+/// that is shorter than deep are held by its ends.
 double IncisionVolume::lift_of_tilted_blade(double s, double v) const {
   const auto [before, after] = place_along(s);
   const double tilt = std::lerp(tilt_[before], tilt_[before + 1], after),
                known = family_ ? family_->tilt(s * scale_) * std::numbers::pi / 180 : 0;
-  return (std::tan(lips_tilt * tilt) - std::tan(lips_tilt * known)) *
-         std::exp(-v / (tilt_reach * field_.cut().depth));
+  const double depth = field_.cut().depth,
+               held_by_ends =
+                   incision_.extended_to() > 0 ? 1 : std::min(1., incision_.path().length() * scale_ / depth);
+  return held_by_ends * (std::tan(lips_tilt * tilt) - std::tan(lips_tilt * known)) *
+         std::exp(-v / (tilt_reach * depth));
 }
 
 std::vector<ActiveVertex> IncisionVolume::active() const {

@@ -75,6 +75,28 @@ TEST(Replay, LiftsTheLipsUnderABladeWhoseTiltWaves) {
   }
 }
 
+TEST(Replay, LiftsTheLipsOfCutsThatAreShorterThanDeepLess) {
+  constexpr double depth = 3, tilt = 0.5;
+  const Vec3 blade{0, -std::sin(tilt), std::cos(tilt)};
+  const Field field = opening_field({-5, 10, depth}, 20, 16, 6, 2);
+  for (const double length : {1.5, 6.}) {
+    Incision incision(grid(40, 40, -5, -5, 0.25),
+                      ScalpelPath({{{-length / 2, 0, 0}, blade, depth}, {{length / 2, 0, 0}, blade, depth}}),
+                      unrefined());
+    incision.advance_to(length);
+    const IncisionVolume volume(incision, field, 1);
+    int lips = 0;
+    for (const auto& c : incision.chain()) {
+      if (c.left == c.right) continue;
+      const auto at = volume.locate(c.left);
+      ASSERT_TRUE(at);
+      EXPECT_NEAR(dot(at->across, at->outward), std::min(1., length / depth) * std::tan(2. / 3 * tilt), 1e-9);
+      ++lips;
+    }
+    EXPECT_GT(lips, 1);
+  }
+}
+
 TEST(Replay, IsTheFieldItselfOnAFlatPatch) {
   const Straight cut;
   const CutMesh& mesh = cut.incision.mesh();
