@@ -41,6 +41,10 @@ double parse_memory(const std::string& text, const std::string& option) {
   return bytes;
 }
 
+double memory_to_use(const std::string& text, const std::string& option) {
+  return text.empty() ? 0.9 * available_memory() : parse_memory(text, option);
+}
+
 double available_memory() {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   double available = unlimited;

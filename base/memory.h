@@ -18,6 +18,9 @@ double held_memory();
 /// MB.
 double parse_memory(const std::string& text, const std::string& option);
 
+/// Of an option's text; where it is empty, nine tenths of what is available.
+double memory_to_use(const std::string& text, const std::string& option);
+
 /// From now on blocks of many MB are returned to the system when they are freed. SuperLU_DIST, a dependency
 /// of Trilinos, disables this when it is loaded, which fragments the memory.
 void return_large_blocks();

@@ -334,7 +334,7 @@ int main(int argc, char** argv) {
     if (options.regularisation) check_regularisation(*options.regularisation, "--regularisation");
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     Task task{snapshots, outputs_of(snapshots, out, ".dffd", "snapshot"),
-              options,   memory.empty() ? 0.9 * available_memory() : parse_memory(memory, "--memory"),
+              options,   memory_to_use(memory, "--memory"),
               &ranks,    {}};
     ranks.check();
     for (const std::string& file : task.outs) {

@@ -143,15 +143,7 @@ std::optional<SkinFit::Shape> SkinFit::at(double s, const Vec3& outward, const V
     if (!found) return std::nullopt;
     const auto& [a, b, c, xx, xy, yy] = *found;
     shape = {normalized(w - b * u - c * v), -xx / distance, -yy / distance, -xy / distance};
-    double squares = 0, weights = 0;
-    for (const Vec3& one : around) {
-      const Vec3 from = 1 / distance * (one - center);
-      const double x = dot(from, u), y = dot(from, v), z = dot(from, w), weight = falling(norm(from));
-      const double off = z - fourth * (z - level) * (z - level) / 2 -
-                         (a + b * x + c * y + xx * x * x / 2 + xy * x * y + yy * y * y / 2);
-      squares += weight * off * off, weights += weight;
-    }
-    shape.uneven = weights > 0 ? asked * std::sqrt(squares / weights) : 0;
+    shape.uneven = asked * fit.residual(*found);
     level = a;
     const double trace = xx + yy, determinant = xx * yy - xy * xy, square = trace * trace - 2 * determinant;
     fourth = square > 0 ? trace * (trace * trace - 3 * determinant) / square : 0;

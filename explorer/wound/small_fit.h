@@ -1,6 +1,7 @@
 // Weighted least squares for a few unknowns, by the normal equations. Inside explorer/wound only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -14,6 +15,7 @@ class SmallFit {
   using Row = std::array<double, n>;
 
   void add(const Row& row, double value, double weight) {
+    squares_ += weight * value * value;
     for (int i = 0; i < n; ++i) {
       right_[i] += weight * row[i] * value;
       for (int j = 0; j <= i; ++j) matrix_[i][j] += weight * row[i] * row[j];
@@ -49,10 +51,17 @@ class SmallFit {
     return x;
   }
 
+  /// The root of the mean square of what a solution without a ridge leaves of the values.
+  double residual(const Row& solution) const {
+    double squares = squares_;
+    for (int i = 0; i < n; ++i) squares -= solution[i] * right_[i];
+    return weight_ > 0 ? std::sqrt(std::max(0., squares / weight_)) : 0;
+  }
+
  private:
   std::array<Row, n> matrix_{};
   Row right_{};
-  double weight_ = 0;
+  double weight_ = 0, squares_ = 0;
 };
 
 }  // namespace cleft

@@ -18,10 +18,13 @@ std::vector<const Wound*> Wounds::first(std::size_t count) const {
   return result;
 }
 
-Relief::At Wounds::relief_at(const Blade& blade) const {
+/// Of the blade's way through its cut.
+double Wounds::part_made(const Blade& blade) const {
   const double reached = wounds_[blade.cut].reached();
-  return relief_[blade.cut].at(blade.s < reached ? blade.s / reached : 1);
+  return blade.s < reached ? blade.s / reached : 1;
 }
+
+Relief::At Wounds::relief_at(const Blade& blade) const { return relief_[blade.cut].at(part_made(blade)); }
 
 double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
   return relief_at(blade).amplitude(cut, s);

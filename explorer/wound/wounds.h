@@ -88,6 +88,7 @@ class Wounds {
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
   /// A displacement by one cut alone, mm, as the others leave it.
   Vec3 relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const;
+  double part_made(const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest) const;
   bool turned_by_field(int triangle, const Blade& blade) const;
   bool turned_between_corners(int triangle, const Blade& blade) const;

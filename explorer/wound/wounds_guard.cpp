@@ -142,10 +142,7 @@ class Wounds::GuardLooks {
            std::abs(at->uvw.y) < nearly_meeting * cut.field.shape().cut().depth;
   }
 
-  Relief::At relief_at(const Blade& blade) const {
-    const double reached = wounds_[blade.cut].reached();
-    return relief_[blade.cut].at(reached > 0 ? blade.s / reached : 1);
-  }
+  Relief::At relief_at(const Blade& blade) const { return relief_[blade.cut].at(wounds_.part_made(blade)); }
 
   /// All of the skin is looked at with the blade there.
   void look(const Blade& blade, bool lasting) {

@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
           1, static_cast<int>(std::thread::hardware_concurrency()) / (options.ranks * options.threads));
     if (dry_run) return list_cases(study, known_cases(study, out), out, options.jobs, json);
     cases_of(study);  // mistakes are told before a folder is made
-    options.memory = memory.empty() ? 0.9 * available_memory() : parse_memory(memory, "--memory");
+    options.memory = memory_to_use(memory, "--memory");
     const StudyFolder folder = task.empty() ? StudyFolder::create(out, study) : StudyFolder(out);
     if (task.empty())
       for (const auto& [hash, why, aside] : folder.set_damaged_aside())

@@ -180,12 +180,12 @@ TEST(Guard, KeepsSliversWithoutHoldingTheLips) {
   EXPECT_GT(v.guarded, 0);
 }
 
-/// A vertex 0.04 mm beside an edge makes a sliver, in skin that bends; once the vertex nears the edge, too.
 /// Of a field that draws edges apart, and turns nothing over.
 const GuardSearch::ByField draws_apart{
     [](int, std::size_t) { return false; }, [](int, int, double) { return true; },
     [](int, int, double) { return true; }, [](int, std::size_t) { return false; }};
 
+/// A vertex 0.04 mm beside an edge makes a sliver, in skin that bends; once the vertex nears the edge, too.
 TEST(GuardSearch, LeavesSliversThatHardlyBend) {
   SurfaceMesh plate = grid(10, 10, 0, 0, 1);
   constexpr int middle = 60;
