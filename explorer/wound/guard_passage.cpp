@@ -102,9 +102,11 @@ bool GuardPassage::look(const Beside& one, int round, const Left& left, const Te
     if (found[i].left < found[best].left) best = i;
   }
   if (found.empty() || found[best].left > little) return told;
-  for (const std::size_t next : {best, best + 1}) {
-    if (next == 0 || next == found.size()) continue;
-    double low = places[next - 1], high = places[next];
+  const auto before = std::lower_bound(places.begin(), places.end(), places[best] - 2 * passed),
+             after = std::upper_bound(places.begin(), places.end(), places[best] + 2 * passed);
+  for (auto [low, high] : {std::pair(before == places.begin() ? places[best] : before[-1], places[best]),
+                           std::pair(places[best], after == places.end() ? places[best] : *after)}) {
+    if (low == high) continue;
     for (int i = 0; i < searches; ++i) {
       const double a = low + (high - low) / 3, b = high - (high - low) / 3, at_a = left(one.triangle, a),
                    at_b = left(one.triangle, b);

@@ -95,7 +95,7 @@ bool LiveWounds::relieve() {
   } catch (const InputError&) {  // the field does not tell the tension: they add
     amplitudes.assign(size(), {{0}, {1}});
   }
-  set_relief(last, Relief({std::move(amplitudes)}));
+  set_relief(last, Relief(std::move(amplitudes)));
   if (complete) cross(size());
   now_ = relief(last).at(1);
   relieved_at_ = length;

@@ -19,7 +19,10 @@ namespace {
 /// cuts nearly meet end to end.
 constexpr double most = 3;
 /// Of a cut's path, in which the relief is taken as linear: a fiftieth of it turns amplitudes by little.
+/// Steps also end where the cut meets others: corners of a crossing part when the blade has passed it, and
+/// not before. As parts of the path, steps that are closer than that are one.
 constexpr int steps = 48;
+constexpr double least_step = 1e-9;
 
 /// How far lips lean in all, over how far the other cut shears the tissue above the bottom: of simulated
 /// parallel cuts 10 to 60 mm long, 3 and 5 mm deep and 4 to 20 mm apart, in tissue of 0.008 to 0.05 MPa.
@@ -33,8 +36,9 @@ constexpr double leans_fully = 0.6, leaning_reach = 2. / 3;
 constexpr int layers = 6;
 constexpr double reach = 0.5;
 const double gauss = 1 / std::numbers::sqrt3;
-/// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross.
-constexpr double lean_fades = 0.1;
+/// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross. Of that, so
+/// far from the crossing along a cut its corners are, and ends what keeps them from parting.
+constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
 
@@ -132,20 +136,19 @@ void BesideCut::keep_with_own_piece(const ActiveVertex& vertex, std::size_t cut,
                         : in_other->uvw.y < 0           ? -1
                                                         : 1;
     // Both cuts part the corners: of what lips lean further away half is due to each.
-    const double own = crossing.toward * side, far = std::max(own * from, crossing.fades / 2);
+    const double own = crossing.toward * side, far = std::max(own * from, corner_part * crossing.fades);
     s += (1 - away) * (own * far - from);
   }
 }
 
 Relief::At Relief::at(double part) const {
   At result;
-  if (steps_ == 0) return result;
-  const double at = part * static_cast<double>(steps_ - 1);
-  const auto step = steps_ == 1 ? 0 : std::min(static_cast<std::size_t>(at), steps_ - 2);
+  if (parts_.empty()) return result;
+  const auto [before, after, beyond] = between(parts_, part);
   result.cuts_ = cuts();
-  result.before_ = &amplitudes_[step * result.cuts_];
-  result.after_ = steps_ == 1 ? result.before_ : result.before_ + result.cuts_;
-  result.beyond_ = at - static_cast<double>(step);
+  result.before_ = &amplitudes_[before * result.cuts_];
+  result.after_ = &amplitudes_[after * result.cuts_];
+  result.beyond_ = beyond;
   return result;
 }
 
@@ -201,14 +204,20 @@ class AtStations {
       lean[station] = std::lerp(lean[station - 1], lean[next],
                                 (s[station] - s[station - 1]) / (s[next] - s[station - 1]));
     }
-    for (const Crossing& crossing : crossings_)
-      lean_by_corners(crossing, lean_at_crossing(crossing, cuts_, blade, in_membrane), result[crossing.cut]);
+    std::vector<double> parted;
+    for (const Crossing& crossing : crossings_) {
+      const CornerLean corners = lean_at_crossing(crossing, cuts_, blade, in_membrane);
+      lean_by_corners(crossing, corners, result[crossing.cut]);
+      parted.push_back(corners.share);
+    }
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
         const Amplitude::At there = in_membrane[i](result[i].stations[k]);
         result[i].values[k] = std::min(most, there.value);
         result[i].shifts[k] = std::clamp(there.shift, -most_shift, most_shift);
       }
+    for (std::size_t i = 0; i < crossings_.size(); ++i)
+      part_corners(crossings_[i], parted[i], result[crossings_[i].cut]);
     return result;
   }
 
@@ -231,8 +240,9 @@ class AtStations {
                  last = result.empty() ? 0 : result.back().first;
     for (const Crossing& crossing : crossings_)
       if (crossing.cut == cut)
-        for (const double s : {crossing.s - crossing.fades, crossing.s, crossing.s + crossing.fades})
-          if (first < s && s < last) result.emplace_back(s, std::nullopt);
+        for (const double fades : {-parts_within, -1., 0., 1., parts_within})
+          if (const double s = crossing.s + fades * crossing.fades; first < s && s < last)
+            result.emplace_back(s, std::nullopt);
     std::stable_sort(result.begin(), result.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     return result;
@@ -252,6 +262,21 @@ class AtStations {
       const double own = from < 0 ? corners.before : corners.after;
       cut.leans[k] = std::clamp((1 - there) * cut.leans[k] + there * own, -most_lean, most_lean) *
                      std::lerp(1., std::min(1., away / crossing.fades), corners.share);
+    }
+  }
+
+  /// Corners of a crossing are at different places of a cut (BesideCut::keep_with_own_piece), which must not
+  /// part them before the blade has passed. `parted`: 0 then, where the amplitude is the same for them all,
+  /// and 1 where they are free.
+  static void part_corners(const Crossing& crossing, double parted, Amplitude& cut) {
+    const Amplitude::At middle = cut(crossing.s);
+    for (std::size_t k = 0; k < cut.stations.size(); ++k) {
+      const double away = std::abs(cut.stations[k] - crossing.s) / crossing.fades;
+      if (away > parts_within) continue;
+      const double kept = std::lerp(std::max(0., (away - 1) / (parts_within - 1)), 1., parted);
+      cut.values[k] = std::lerp(middle.value, cut.values[k], kept);
+      cut.leans[k] = std::lerp(middle.lean, cut.leans[k], kept);
+      cut.shifts[k] = std::lerp(middle.shift, cut.shifts[k], kept);
     }
   }
 
@@ -276,9 +301,18 @@ std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*
 }
 
 Relief relief_while_cut(const std::vector<const Wound*>& cuts) {
+  const double end = cuts.back()->felt();
+  std::vector<double> parts;
+  for (int i = 0; i <= steps; ++i) parts.push_back(static_cast<double>(i) / steps);
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    for (const double s : touched_at(*cuts.back(), *cuts[k]))
+      if (s < end) parts.push_back(s / end);
+  std::ranges::sort(parts);
+  const auto same = [](double a, double b) { return b - a < least_step; };
+  parts.erase(std::unique(parts.begin(), parts.end(), same), parts.end());
   std::vector<double> blades;
-  for (int i = 0; i <= steps; ++i) blades.push_back(cuts.back()->felt() * i / steps);
-  return Relief(mutual_relief(cuts, blades));
+  for (const double part : parts) blades.push_back(part * end);
+  return Relief(std::move(parts), mutual_relief(cuts, blades));
 }
 
 }  // namespace cleft

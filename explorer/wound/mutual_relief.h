@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "explorer/wound/wound.h"
@@ -58,20 +59,23 @@ struct BesideCut {
   Vec3 added(const Amplitude::At& there) const { return there.lean * outward + there.shift * along; }
 };
 
-/// The amplitudes of several cuts while the blade makes the newest of them, at equal steps of its path,
-/// linear between these. A single step holds for all positions of the blade; without steps, and for unknown
-/// cuts, the amplitude is 1.
+/// The amplitudes of several cuts while the blade makes the newest of them, at steps of its path, linear
+/// between these. A single step holds for all positions of the blade; without steps, and for unknown cuts,
+/// the amplitude is 1.
 class Relief {
  public:
   Relief() = default;
-  /// steps[i][k] is the amplitude of cut k with the blade at step i.
-  explicit Relief(const std::vector<std::vector<Amplitude>>& steps) : steps_(steps.size()) {
+  /// With the blade anywhere.
+  explicit Relief(std::vector<Amplitude> always) : parts_{0}, amplitudes_(std::move(always)) {}
+  /// steps[i][k] is the amplitude of cut k with the blade at parts[i] of its path, ascending.
+  Relief(std::vector<double> parts, const std::vector<std::vector<Amplitude>>& steps)
+      : parts_(std::move(parts)) {
     for (const std::vector<Amplitude>& step : steps)
       amplitudes_.insert(amplitudes_.end(), step.begin(), step.end());
   }
 
-  std::size_t steps() const { return steps_; }
-  std::size_t cuts() const { return steps_ == 0 ? 0 : amplitudes_.size() / steps_; }
+  std::size_t steps() const { return parts_.size(); }
+  std::size_t cuts() const { return parts_.empty() ? 0 : amplitudes_.size() / parts_.size(); }
   const Amplitude& amplitude(std::size_t step, std::size_t cut) const {
     return amplitudes_[step * cuts() + cut];
   }
@@ -111,7 +115,7 @@ class Relief {
   At at(double part) const;
 
  private:
-  std::size_t steps_ = 0;
+  std::vector<double> parts_;          // of the blade's path, ascending
   std::vector<Amplitude> amplitudes_;  // [step][cut]
 };
 

@@ -29,7 +29,7 @@ constexpr double least_between = 1e-4;
 /// What is left of a triangle that displacements between two looks show: where it is less it is looked at.
 constexpr double near_limit = 0.5;
 /// Of vertices, in all: more are not worth the time and the memory.
-constexpr std::size_t most_moments = 200000;
+constexpr std::size_t most_moments = 1000000;
 /// Of the largest opening: what a field turns itself in its own flat patch is not worth lips that are held
 /// back by more for good, but where cuts meet.
 constexpr double worth_an_excuse = 0.02;

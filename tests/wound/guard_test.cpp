@@ -339,7 +339,8 @@ TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
 }
 
 /// Triangles are looked at while the blade passes them, however small they are, and where little is left of
-/// one the least of it is searched for.
+/// one the least of it is searched for: also between a corner, where it is looked at twice, and the next
+/// look.
 TEST(GuardPassage, FindsWhatIsUnsoundForAMoment) {
   Opened opened(grid(60, 40, -30, -20, 1));
   opened.cut(path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3));
@@ -351,30 +352,35 @@ TEST(GuardPassage, FindsWhatIsUnsoundForAMoment) {
   int near = 0;
   for (std::size_t t = 0; t < skin.triangles().size(); ++t) {
     const auto& v = skin.triangle(static_cast<int>(t)).vertex;
-    double first = 100, last = -100, across = 0;
-    for (const int one : v) {
-      first = std::min(first, skin.position(one).x + 15), last = std::max(last, skin.position(one).x + 15);
-      across = std::max(across, std::abs(skin.position(one).y - 0.3));
+    std::array<double, 3> s_of;
+    double across = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      s_of[i] = skin.position(v[i]).x + 15;
+      across = std::max(across, std::abs(skin.position(v[i]).y - 0.3));
     }
+    std::ranges::sort(s_of);
+    const double first = s_of[0], last = s_of[2];
     if (!skin.is_skin(static_cast<int>(t)) || across > 1 || first < 2 || last > 28) continue;
     ++near;
-    // For a hundredth of the way through the triangle.
-    const double at = first + 0.42 * (last - first), for_a_while = 0.005 * (last - first);
-    const auto left = [&](int triangle, double s) {
-      if (triangle != static_cast<int>(t)) return 1.;
-      const double from = std::abs(s - at);
-      return from < for_a_while ? GuardPassage::unsound : 0.1 + from / (last - first);
-    };
-    int found = 0;
-    for (const GuardPassage::Beside& one : passage.beside())
-      passage.look(one, 0, left, [&](double s, double from, double to) {
-        ++found;
-        EXPECT_EQ(one.triangle, static_cast<int>(t));
-        EXPECT_NEAR(s, at, for_a_while);
-        EXPECT_LE(from, s);
-        EXPECT_GE(to, s);
-      });
-    EXPECT_GE(found, 1) << t;
+    // For a fortieth of the way through the triangle.
+    const double for_a_while = 0.0125 * (last - first);
+    for (const double at : {first + 0.42 * (last - first), s_of[1] + 0.05 * (last - first)}) {
+      const auto left = [&](int triangle, double s) {
+        if (triangle != static_cast<int>(t)) return 1.;
+        const double from = std::abs(s - at);
+        return from < for_a_while ? GuardPassage::unsound : 0.1 + from / (last - first);
+      };
+      int found = 0;
+      for (const GuardPassage::Beside& one : passage.beside())
+        passage.look(one, 0, left, [&](double s, double from, double to) {
+          ++found;
+          EXPECT_EQ(one.triangle, static_cast<int>(t));
+          EXPECT_NEAR(s, at, for_a_while);
+          EXPECT_LE(from, s);
+          EXPECT_GE(to, s);
+        });
+      EXPECT_GE(found, 1) << t << ", " << at;
+    }
   }
   EXPECT_GT(near, 100);
 }

@@ -55,6 +55,23 @@ class Cuts {
   std::vector<std::unique_ptr<Wound>> wounds_;
 };
 
+/// The same in skin that is refined along them, to be replayed.
+struct Made {
+  CutMesh mesh{grid(60, 40, -60.3, -40.1, 2)};
+  std::vector<std::unique_ptr<Incision>> cuts;
+
+  std::vector<Wound> open(const VaryingField& field, const std::vector<std::vector<Vec3>>& paths) {
+    for (const auto& path : paths) {
+      cuts.push_back(std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{}));
+      cuts.back()->advance_to(cuts.back()->path().length());
+    }
+    std::vector<Wound> opened;
+    opened.reserve(cuts.size());
+    for (const auto& cut : cuts) opened.emplace_back(*cut, field, 1);
+    return opened;
+  }
+};
+
 std::vector<std::vector<Amplitude>> relief_of(const Cuts& cuts, const std::vector<double>& blades) {
   return membrane_relief(cuts.all(), blades);
 }
@@ -158,17 +175,10 @@ TEST(MembraneRelief, LipsThatLeanChangeSidesWhereCutsCross) {
 /// Both cuts part the corners: of two that face each other the lips rise, and of the others they sink.
 TEST(MembraneRelief, CornersOfACrossingLeanAsTheirAnglesTell) {
   const Field field = ellipses();
-  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
-  std::vector<std::unique_ptr<Incision>> made;
-  for (const auto& path : {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 10, 10.1)}) {
-    made.push_back(std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{}));
-    made.back()->advance_to(made.back()->path().length());
-  }
-  std::vector<Wound> opened;
-  opened.reserve(2);
-  for (const auto& cut : made) opened.emplace_back(*cut, turning(field), 1);
+  Made made;
+  std::vector<Wound> opened = made.open(turning(field), {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 10, 10.1)});
   const std::vector<const Wound*> both = {&opened[0], &opened[1]};
-  const double end = made[1]->path().length();
+  const double end = made.cuts[1]->path().length();
   const auto crossing = crossings_of(both).back();
   ASSERT_EQ(crossing.cut, 1u);
   const double lean = lean_at_crossing(crossing, both, end, membrane_relief(both, {end}).front()).before,
@@ -179,7 +189,7 @@ TEST(MembraneRelief, CornersOfACrossingLeanAsTheirAnglesTell) {
   std::vector<Vec3> now(wounds.vertex_count());
   wounds.positions(wounds.duration(), now);
   std::vector<double> corners, further;  // right above left, at the crossing and 4 mm and more behind it
-  for (const auto& c : made[1]->chain()) {
+  for (const auto& c : made.cuts[1]->chain()) {
     const double from = c.s - 10 * std::numbers::sqrt2, higher = now[c.right].z - now[c.left].z;
     if (std::abs(from) < 0.02) corners.push_back(higher);
     if (from > 4 && from < 6) further.push_back(std::abs(higher));
@@ -191,19 +201,35 @@ TEST(MembraneRelief, CornersOfACrossingLeanAsTheirAnglesTell) {
   EXPECT_NEAR(corners[0], -corners[1], 0.3 * std::abs(corners[0]));
 }
 
+/// A cut that opens less on one side of another one than on the other side parts the corners between them.
+/// They parted before the blade came by, and lips passed each other.
+TEST(MembraneRelief, CornersOfACrossingDoNotPartBeforeTheBladeHasPassed) {
+  const Field field = ellipses();
+  const Cuts cuts(turning(field), {line(-15, 0.1, 15, 0.1), line(-14, -6.9, 14, 7.1)});
+  const Crossing crossing = crossings_of(cuts.all()).front();
+  ASSERT_EQ(crossing.cut, 0u);
+  const Relief relief = relief_while_cut(cuts.all());
+  const double end = cuts.all()[1]->felt();
+  const auto parted = [&](double blade) {
+    const Relief::At now = relief.at(blade / end);
+    double most = 0;
+    for (const double away : {-1., -0.5, 0.5, 1.})
+      most = std::max(most, std::abs(now.amplitude(0, crossing.s + away * crossing.fades) -
+                                     now.amplitude(0, crossing.s)));
+    return most;
+  };
+  for (const double way : {3., 1., 0.3, 0.})
+    EXPECT_LT(parted(crossing.other_s - way), 1e-6) << way << " mm before";
+  EXPECT_GT(parted(crossing.other_s + 1), 0.003);
+  EXPECT_GT(parted(crossing.other_s + 3), 2 * parted(crossing.other_s + 1));
+}
+
 /// A vertex is bounded by what all of them move it by, whichever cuts cross an earlier one when.
 TEST(MembraneRelief, NothingMovesFurtherThanItsBoundWhereCutsCross) {
   const Field field = ellipses();
-  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
-  std::vector<std::unique_ptr<Incision>> made;
-  for (const auto& path : {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 2, 2.1), line(2, -6, 14, 6)}) {
-    made.push_back(std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{}));
-    made.back()->advance_to(made.back()->path().length());
-  }
-  std::vector<Wound> opened;
-  opened.reserve(3);
-  for (const auto& cut : made) opened.emplace_back(*cut, turning(field), 1);
-  const ReplayedWounds wounds(std::move(opened));
+  Made made;
+  const ReplayedWounds wounds(
+      made.open(turning(field), {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 2, 2.1), line(2, -6, 14, 6)}));
   std::vector<Vec3> all(wounds.vertex_count()), few(wounds.vertex_count());
   const double detail = 0.05;
   const auto level = wounds.level(detail);

@@ -121,7 +121,7 @@ TEST(Leaning, IsWithTheShearOfTheOtherCutAndNoneOfFieldsThatDoNotOpen) {
 TEST(Leaning, MovesLipsUprightAndAlongTheCutInProportionToTheirDisplacementAcross) {
   const Field field = parabolic_field(3);
   const TwoCuts two(field, -4, field, 4);
-  const Relief relief({two.amplitudes()});
+  const Relief relief(two.amplitudes());
   const Relief::At now = relief.at(1);
   const auto relieved = [&](double u, double v, const Vec3& alone) {
     ActiveVertex at;
