@@ -30,9 +30,9 @@ constexpr double least_between = 1e-4;
 constexpr double near_limit = 0.5;
 /// Of vertices, in all: more are not worth the time and the memory.
 constexpr std::size_t most_moments = 1000000;
-/// Of the largest opening: what a field turns itself in its own flat patch is not worth lips that are held
-/// back by more for good, but where cuts meet.
-constexpr double worth_an_excuse = 0.02;
+/// Of the largest opening, and mm: what a field turns itself in its own flat patch is not worth lips that are
+/// held back by more than both for good, but where cuts meet.
+constexpr double worth_an_excuse = 0.02, worth_an_excuse_mm = GuardSearch::least_jump_mm;
 /// Of the depth: cuts that are nearer to each other all but meet.
 constexpr double nearly_meeting = 1. / 3;
 }  // namespace
@@ -88,7 +88,9 @@ class Wounds::GuardLooks {
       if (search_.is_excused()) {
         search_.hold_excused();
         Guard strict = search_.result();
-        if (meet() || held_back(strict) <= held_back(guard) + worth_an_excuse) guard = std::move(strict);
+        const auto [opening, taken] = held_back(guard);
+        const double allowed = taken + std::max(worth_an_excuse * opening, worth_an_excuse_mm);
+        if (meet() || held_back(strict).taken <= allowed) guard = std::move(strict);
       }
       if (moments) hold_for_moments(guard);
     } else if (moments) {
@@ -289,19 +291,22 @@ class Wounds::GuardLooks {
     return sum;
   }
 
-  /// Of the largest opening of the complete cuts, how much a guard takes of any.
-  double held_back(const Guard& guard) const {
-    if (guard.empty()) return 0;
+  /// The largest opening of the complete cuts, and how much a guard takes of any, mm.
+  struct HeldBack {
+    double opening = 0, taken = 0;
+  };
+  HeldBack held_back(const Guard& guard) const {
     const Blade end{wounds_.size() - 1, wounds_[wounds_.size() - 1].reached()};
     const Relief::At now = relief_at(end);
     const auto own = [&](int v) { return this->own(v, end, now); };
-    double largest = 0, taken = 0;
+    HeldBack most;
     for (const auto& [left, right] : lips_) {
-      const Vec3 open = own(right) - own(left);
-      largest = std::max(largest, norm(open));
-      taken = std::max(taken, norm(guard.displacement(right, own) - guard.displacement(left, own) - open));
+      const Vec3 open = own(right) - own(left),
+                 held = guard.displacement(right, own) - guard.displacement(left, own);
+      most.opening = std::max(most.opening, wounds_[0].scale() * norm(open));
+      most.taken = std::max(most.taken, wounds_[0].scale() * norm(held - open));
     }
-    return largest > 0 ? taken / largest : 0;
+    return most;
   }
 
   bool is_unsound(int one, const Blade& blade, const Guard& guard) const {
