@@ -15,6 +15,7 @@
 #include "params/consistency.h"
 #include "params/encode_limits.h"
 #include "params/hash.h"
+#include "params/lip_formulation.h"
 #include "params/sampling/read_sampling.h"
 #include "params/sampling/sampling.h"
 #include "params/sensitivities.h"
@@ -330,6 +331,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& assignme
     throw InputError(path +
                      ": is a study with [vary]; use cleft run, or remove [vary] to solve its base case");
   for (const std::string& assignment : assignments) set_from_text(study.base.parameters, assignment, "--set");
+  if (!tells_formulation(assignments)) settle_formulation(study, study.base);
   check_consistency(study.base.parameters, assignments.empty() ? path : path + " with --set");
   check_sensitivities(study.base.sensitivities, study.base.parameters, path + ": sensitivities");
   return study.base;
@@ -350,8 +352,23 @@ std::vector<Case> in_unit_tensions(const std::vector<Case>& cases) {
 
 }  // namespace
 
+bool tells_formulation(const Study& study) {
+  const auto is_it = [](const std::string& name) { return name == formulation_name; };
+  return std::ranges::any_of(study.given, is_it) || std::ranges::any_of(study.vary, is_it, &Variation::name);
+}
+
+bool tells_formulation(const std::vector<std::string>& assignments) {
+  return std::ranges::any_of(
+      assignments, [](const std::string& one) { return one.substr(0, one.find('=')) == formulation_name; });
+}
+
+void settle_formulation(const Study& study, Case& one) {
+  if (!tells_formulation(study)) settle_formulation(one.parameters, one.parameters.cut.tilt);
+}
+
 std::vector<Case> cases_of(const Study& study) {
   std::vector<Case> cases = find_sampling(study.sampling.method, study.name).sample(study);
+  for (Case& one : cases) settle_formulation(study, one);
   if (study.sampling.unit_tensions) cases = in_unit_tensions(cases);
   Mistakes mistakes;
   std::set<std::string> identities;

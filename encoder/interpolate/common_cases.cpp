@@ -11,6 +11,7 @@
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/study_file.h"
 #include "encoder/field/knot_insertion.h"
+#include "params/lip_formulation.h"
 
 namespace cleft {
 
@@ -162,8 +163,8 @@ void CommonCases::check_alike(const Own& a, const Own& b) {
   if (numbers.size() != b.parameters.numbers().size()) check_alike(b, a);
 }
 
-/// Cases of an older version, without a parameter that is 0 by default, are those with 0; and a choice that
-/// differs becomes a number, where it can.
+/// Cases of an older version, without a parameter that is 0 by default, are those with 0; a choice that
+/// differs becomes a number, where it can; and how tissue is discretised is no choice of what is simulated.
 std::vector<CommonCases::Own> CommonCases::made_alike(std::vector<Own> all) {
   bool springs = false, bone = false;
   for (Own& own : all)
@@ -174,6 +175,10 @@ std::vector<CommonCases::Own> CommonCases::made_alike(std::vector<Own> all) {
         p->set((*p)->skin.turning_stiffness, 0);
       if (p->has((*p)->patch.bottom)) ((*p)->patch.bottom == PatchBottom::bone ? bone : springs) = true;
     }
+  const auto formulation = [](const Own& own) { return own.parameters->tissue.formulation; };
+  if (std::ranges::adjacent_find(all, std::ranges::not_equal_to(), formulation) != all.end())
+    for (Own& own : all)
+      for (RecordedParameters* p : {&own.parameters, &own.kept.parameters}) p->erase(formulation_name);
   if (springs && bone)
     for (Own& own : all)
       for (RecordedParameters* p : {&own.parameters, &own.kept.parameters}) number_bottom(*p);

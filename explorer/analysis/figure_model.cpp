@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/quantiles.h"
 #include "explorer/study/case_figures.h"
+#include "params/lip_formulation.h"
 
 namespace cleft {
 
@@ -36,7 +37,7 @@ void check_choices(const RecordedParameters& a, const RecordedParameters& b) {
   const auto texts = a.texts(), others = b.texts();
   const auto found = std::find_if(others.begin(), others.end(), [&](const auto& other) {
     const auto own = texts.find(other.first);
-    return own != texts.end() && own->second != other.second;
+    return own != texts.end() && own->second != other.second && other.first != formulation_name;
   });
   if (found == others.end()) return;
   const auto& [name, value] = *found;

@@ -16,6 +16,7 @@
 #include "explorer/body/remesh.h"
 #include "explorer/body/skin_coordinates.h"
 #include "explorer/body/smooth_surface.h"
+#include "params/lip_formulation.h"
 #include "params/meshed_cut.h"
 
 namespace cleft {
@@ -28,16 +29,18 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double bend_of_edge = 0.5;  // radians by which the skin may turn along an edge
 
 /// The lip over a tilted blade ends in a thin edge, which the skin bends the more the thinner it is: elements
-/// at the cuts are smaller by the square of the cosine of the tilt that a quarter of a path exceeds, from
-/// `upright` to `flattest`, degrees. Upright, on a flat plate, the opening differs by 0.1 % from that with
-/// elements half as large; tilted by 45 degrees it would by 7 %, and does by 4.
-constexpr double upright = 10, flattest = 55;
+/// at the cuts are smaller by the square of the cosine of tilts from `upright` to `flattest`, degrees.
+/// Upright, on a flat plate, the opening differs by 0.1 % from that with elements half as large; tilted by 45
+/// degrees it would by 7 %, and does by 4, and with mean dilatation by 2.
+constexpr double upright = least_tilt, flattest = 55;
 constexpr int tilts = 16;  // at so many places of a path
 
-Parameters with_finer_lips(const BodyRequest& request) {
+}  // namespace
+
+double tilt_of(const BodyRequest& request) {
   const SurfaceIndex skin(request.skin);
   const std::vector<Vec3> normals = normals_of(skin.surface());
-  double least = std::cos(upright / degrees);
+  double least = 1;
   for (const ScalpelPath& path : request.paths) {
     std::vector<double> cosines;
     for (int i = 0; i < tilts; ++i) {
@@ -54,7 +57,13 @@ Parameters with_finer_lips(const BodyRequest& request) {
     std::sort(cosines.begin(), cosines.end());
     if (!cosines.empty()) least = std::min(least, cosines[cosines.size() / 4]);
   }
-  const double part = std::max(least, std::cos(flattest / degrees)) / std::cos(upright / degrees);
+  return std::acos(least) * degrees;
+}
+
+namespace {
+
+Parameters with_finer_lips(const BodyRequest& request, double tilt) {
+  const double part = std::cos(std::clamp(tilt, upright, flattest) / degrees) / std::cos(upright / degrees);
   Parameters finer = request.parameters;
   finer.mesh.element_size *= part * part;
   return finer;
@@ -78,7 +87,8 @@ struct LongerPath {
 
 class Maker {
  public:
-  explicit Maker(const BodyRequest& request) : r_(request), p_(with_finer_lips(request)) {
+  explicit Maker(const BodyRequest& request)
+      : r_(request), tilt_(tilt_of(request)), p_(with_finer_lips(request, tilt_)) {
     for (const ScalpelPath& path : r_.paths) longer_.emplace_back(path, p_);
   }
 
@@ -428,6 +438,10 @@ class Maker {
         const double angle = std::atan2(norm(cross(a, b)), dot(a, b)) * degrees;
         if (angle < report.least_angle) report.least_angle = angle, report.sharpest = s_.mesh.points[t[i]];
       }
+    if (Parameters settled = p_; !r_.own_formulation) {
+      settle_formulation(settled, tilt_);
+      if (settled.tissue.formulation != p_.tissue.formulation) report.stiff_tilt = tilt_;
+    }
     for (const auto& lines : s_.cuts)
       for (const CutLine& line : lines)
         if (const double depth = e_.cut_depth(layers_, line.from);
@@ -436,6 +450,7 @@ class Maker {
   }
 
   const BodyRequest& r_;
+  const double tilt_;  // degrees
   const Parameters p_;
   std::vector<LongerPath> longer_;
   LinedSurface s_;

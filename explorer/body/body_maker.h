@@ -25,6 +25,7 @@ struct BodyRequest {
   std::vector<TissueLayer> layers = {};   ///< of the tissue, from the skin down; none: all is one
   std::vector<TensionLine> tension = {};  ///< along skin.prestress_u, at each place their mean; none: from
                                           ///< the first path's start to its end
+  bool own_formulation = false;           ///< whether tissue.formulation was asked for
 };
 
 /// A path that does not lie on the skin: the cut goes below it, as far as there is skin.
@@ -53,7 +54,12 @@ struct BodyReport {
   int on_bone = 0;               ///< columns that end at bone
   double least_depth = 0;        ///< of a cut that bone would stop, mm; 0: none
   std::vector<OffPath> off_paths;
+  double stiff_tilt = 0;  ///< degrees, of a blade whose thin lips the tissue's formulation makes too stiff
 };
+
+/// The tilt of the blade against the normal of the skin, across the path, that it exceeds along a quarter of
+/// a path: the largest of any path, degrees.
+double tilt_of(const BodyRequest& request);
 
 /// The skin around the paths is cut along them, closed again, meshed with triangles of element_size along the
 /// cuts that grow away from them, and extruded inward in layers of wedges down to patch.height, or to the

@@ -40,6 +40,10 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
         hundredths(r.blade_turn) +
         " degrees from the blade, because the skin is bent or the blade turns too fast there, or "
         "it is too flat: check the path's directions (nx, ny, nz)");
+  if (r.stiff_tilt > 0)
+    warnings.push_back("the blade tilts by " + hundredths(r.stiff_tilt) +
+                       " degrees against the skin, over whose thin lip the tissue is too stiff: set "
+                       "tissue.formulation = \"mean-dilatation\" here and for cleft solve");
   if (r.left_out > 0)
     warnings.push_back(triangles_at(r.left_out, r.left_out_at) + (r.left_out == 1 ? " is" : " are") +
                        " left out of the body, which ends there: the skin is bent too strongly");

@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "explorer/body/body_warnings.h"
+#include "params/lip_formulation.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
 #include "solver/body/skin_turn.h"
@@ -83,7 +84,7 @@ void thin_frames(Body& body, std::size_t most) {
   body.hash = hash_of(body);
 }
 
-BodySimulation simulate(const BodyRequest& request, const std::function<void(const std::string&)>& progress,
+BodySimulation simulate(BodyRequest request, const std::function<void(const std::string&)>& progress,
                         const StopCount* stop) {
   const auto tell = [&](const std::string& step) {
     if (progress) progress(step);
@@ -92,6 +93,7 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   const ScratchFolder folder("simulate");
   BodySimulation result;
   tell("meshing the body");
+  if (!request.own_formulation) settle_formulation(request.parameters, tilt_of(request));
   result.body = make_body(request, &result.report);
   thin_frames(result.body, most_frames);
   result.report.frames = static_cast<int>(result.body.times.size());

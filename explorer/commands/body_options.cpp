@@ -61,6 +61,8 @@ std::string BodyOptions::first_given(bool but_bone) const {
 
 BodyRequest BodyOptions::request(double scale, const RecordedParameters& of_field) const {
   BodyRequest request;
+  request.own_formulation =
+      tells_formulation(assignments) || (!case_file.empty() && tells_formulation(read_study(case_file)));
   if (!case_file.empty()) {
     request.parameters = read_case(case_file, assignments).parameters;
   } else {

@@ -49,6 +49,7 @@ std::optional<Case> case_at(const Study& study, const std::vector<Variation>& ra
     if (!(values.at(k) >= least && values.at(k) <= greatest)) return {};
     set_parameter(one.parameters, ranges[k].name, values[k], study.name);
   }
+  settle_formulation(study, one);
   return one;
 }
 

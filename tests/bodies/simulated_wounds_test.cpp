@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "explorer/body/body_maker.h"
+#include "explorer/body/body_warnings.h"
 #include "explorer/body/simulate.h"
 #include "solver/body/skin_turn.h"
 #include "tests/bodies/subjects.h"
@@ -389,6 +390,30 @@ TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
     const bool told = alone.output.find("skin.turning_stiffness = ") != std::string::npos;
     EXPECT_EQ(told, simulation == &simulations.back()) << alone.output;
   }
+}
+
+/// Over a tilted blade tissue of displacements alone is too stiff.
+TEST(SimulatedWounds, TiltedCutsAreSimulatedWithMeanDilatation) {
+  BodyRequest request;
+  request.skin = sheet(testing::flat, 30, 30, 2, 0.25);
+  request.parameters.mesh.element_size = 1.5, request.parameters.mesh.grading = 1.5;
+  request.parameters.patch.height = 6, request.reach = 15;
+  setenv("CLEFT_BIN", CLEFT_BIN, 1);
+  const auto formulation = [&](double tilt) {
+    request.paths = {path_on(testing::flat, along, 2.5, tilt)};
+    EXPECT_NEAR(tilt_of(request), std::abs(tilt), 0.1);
+    return simulate(request).series->snapshot().parameters->tissue.formulation;
+  };
+  EXPECT_EQ(formulation(5), TissueFormulation::displacement);
+  EXPECT_EQ(formulation(-30), TissueFormulation::mean_dilatation);
+  BodyReport report;
+  make_body(request, &report);
+  EXPECT_NEAR(report.stiff_tilt, 30, 0.1) << "by itself the mesh leaves it to the case, and warns";
+  EXPECT_NE(warnings_of(report).front().find("tissue.formulation = \"mean-dilatation\""), std::string::npos);
+  request.own_formulation = true;
+  EXPECT_EQ(formulation(-30), TissueFormulation::displacement) << "was asked for";
+  make_body(request, &(report = {}));
+  EXPECT_EQ(report.stiff_tilt, 0);
 }
 
 /// Skin that is pulled across the first cut alone presses the second one's lips together, where they meet.

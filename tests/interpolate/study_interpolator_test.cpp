@@ -289,6 +289,16 @@ TEST(CommonCases, OlderCasesAreThoseWithoutWhatIsZeroByDefault) {
   EXPECT_NO_THROW(CommonCases{members});
 }
 
+TEST(CommonCases, HowTissueIsDiscretisedIsNoChoice) {
+  auto members = made_study(three_varied(2));
+  for (StudyMember& member : members) member.field.parameters.set("tissue.formulation", "displacement");
+  members[1].field.parameters.set("tissue.formulation", "mean-dilatation");
+  const CommonCases cases(members);
+  EXPECT_EQ(cases.size(), static_cast<int>(members.size()));
+  for (const CommonCase& one : cases.cases())
+    EXPECT_FALSE(one.parameters.texts().contains("tissue.formulation"));
+}
+
 TEST(CommonCases, WhatCannotBeCombinedIsRefused) {
   const auto refuses = [](const std::vector<StudyMember>& members, const std::string& part) {
     try {

@@ -263,6 +263,34 @@ TEST(Case, SetOverridesTheFile) {
   EXPECT_EQ(read_case(file, {"skin.thickness=2.5"}).parameters.skin.thickness, 2.5);
 }
 
+/// Over tilted blades displacements alone are too stiff; what a file says holds.
+TEST(Study, TiltedCutsHaveMeanDilatationUnlessTheFileTells) {
+  TemporaryFolder folder;
+  const auto formulations = [&](const std::string& text) {
+    folder.write("study.toml", text);
+    std::string all;
+    for (const Case& one : cases_of(read_study(folder / "study.toml")))
+      all += one.parameters.tissue.formulation == TissueFormulation::mean_dilatation ? 'm' : 'd';
+    return all;
+  };
+  const std::string tilts = "[vary]\n'cut.tilt' = [-30, -10, -9, 0, 9, 10, 30]\n";
+  EXPECT_EQ(formulations(tilts), "mmdddmm");
+  EXPECT_EQ(formulations("[case]\ntissue.formulation = 'displacement'\n" + tilts), "ddddddd");
+  EXPECT_EQ(formulations("[vary]\n'cut.tilt' = [0, 30]\n'tissue.formulation' = ['displacement']\n"), "dd");
+  EXPECT_EQ(formulations("[case]\nmodel = 'finite'\ntissue.law = 'st-venant-kirchhoff'\n" + tilts),
+            "ddddddd");
+  EXPECT_EQ(formulations("[case]\nmodel = 'finite'\n" + tilts), "mmdddmm");
+  folder.write("case.toml", "[case]\ncut.tilt = 30\n");
+  const auto of_case = [&](const std::vector<std::string>& assignments) {
+    return read_case(folder / "case.toml", assignments).parameters.tissue.formulation;
+  };
+  EXPECT_EQ(of_case({}), TissueFormulation::mean_dilatation);
+  EXPECT_EQ(of_case({"cut.tilt=5"}), TissueFormulation::displacement);
+  EXPECT_EQ(of_case({"tissue.formulation=displacement"}), TissueFormulation::displacement);
+  folder.write("again.toml", case_file_text(read_case(folder / "case.toml", {})));
+  EXPECT_EQ(read_case(folder / "again.toml", {}).hash(), read_case(folder / "case.toml", {}).hash());
+}
+
 TEST(Study, ACaseThatStandsTwiceIsNamed) {
   EXPECT_NE(message_of("[vary]\n'skin.thickness' = [1, 2, 1]\n").find("stands twice"), std::string::npos);
 }
