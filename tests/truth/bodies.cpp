@@ -33,7 +33,7 @@ using namespace cleft;
 constexpr double end = 1;  // mm of a cut
 
 struct Options {
-  std::vector<std::string> subjects, fields, assignments;
+  std::vector<std::string> subjects, cuts, fields, assignments;
   std::string csv, lips;
   double reach = 40;
   bool list = false, finer = false;
@@ -292,12 +292,14 @@ BodyRequest request_of(const testing::Subject& subject, const BodyRequest& commo
 
 void run(const Options& options) {
   std::vector<testing::NamedSubject> subjects = testing::body_subjects(options.reach + 5);
-  if (!options.subjects.empty())
+  if (!options.subjects.empty() || !options.cuts.empty())
     std::erase_if(subjects, [&](const testing::NamedSubject& one) {
       return std::ranges::none_of(options.subjects, [&](const std::string& part) {
         return one.name.find(part) != std::string::npos;
       });
     });
+  for (const std::string& cuts : options.cuts)
+    subjects.push_back(testing::straight_cuts(cuts, options.reach + 5));
   if (subjects.empty())
     throw InputError(options.subjects.front() + ": no body has this in its name; see --list");
   if (options.list) {
@@ -348,6 +350,11 @@ int main(int argc, char** argv) {
                   "cleft-truth-bodies");
   Options o;
   app.add_option("SUBJECT", o.subjects, "only the bodies that have this in their names [all]");
+  app.add_option(
+         "--cuts", o.cuts,
+         "a body of flat skin with straight cuts: LENGTH,ANGLE,X,Y[,DEPTH] of each, with blanks between "
+         "them, such as \"30,0,0,0 15,90,0,7.5\"; again for further bodies")
+      ->allow_extra_args(false);
   app.add_option("--field", o.fields,
                  "NAME=FILE: a case.dffd, or a study.dffd of three tensions or of a family, which are turned "
                  "with the body's tension; again for further columns [the default case, and three tensions]")

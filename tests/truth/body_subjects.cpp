@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "examples/head/surface_mesher.h"
 
 namespace cleft::testing {
@@ -174,6 +177,28 @@ std::vector<NamedSubject> body_subjects(double margin) {
   add("excision, ellipse 30 x 14", flat, {ellipse(15, 7)});
   all.push_back({"cheek of the generated head", head_cheek});
   return all;
+}
+
+NamedSubject straight_cuts(const std::string& text, double margin) {
+  std::vector<Places> all;
+  double deep = depth;
+  std::istringstream cuts(text);
+  for (std::string cut; cuts >> cut;) {
+    std::vector<double> numbers;
+    std::istringstream list(cut);
+    for (std::string number; std::getline(list, number, ',');)
+      numbers.push_back(parse_number(number, "--cuts " + cut));
+    if (numbers.size() < 4 || numbers.size() > 5 || !(numbers[0] > 0) ||
+        !(numbers.size() < 5 || numbers[4] > 0))
+      throw InputError("--cuts " + cut +
+                       ": must be LENGTH,ANGLE,X,Y or LENGTH,ANGLE,X,Y,DEPTH, such as 30,90,0,0");
+    if (numbers.size() == 5) deep = numbers[4];
+    all.push_back(straight(numbers[0], numbers[1], numbers[2], numbers[3]));
+  }
+  if (all.empty()) throw InputError("--cuts: must be LENGTH,ANGLE,X,Y of each cut, such as 30,90,0,0");
+  std::string name = text;
+  std::replace(name.begin(), name.end(), ',', ' ');
+  return {name, [=] { return on(flat, all, margin, deep); }};
 }
 
 }  // namespace cleft::testing

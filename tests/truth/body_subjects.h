@@ -17,4 +17,8 @@ struct NamedSubject {
 /// Skin goes `margin` beyond the cuts.
 std::vector<NamedSubject> body_subjects(double margin);
 
+/// Straight cuts in flat skin, named by their text: LENGTH,ANGLE,X,Y[,DEPTH] of each, with blanks between
+/// them; degrees, the place of the middle, and the depth of all. Throws InputError.
+NamedSubject straight_cuts(const std::string& text, double margin);
+
 }  // namespace cleft::testing
