@@ -32,7 +32,7 @@ struct Opening {
 
 Opening opening_of(const Wound& cut, double s, double blade, const Amplitude& in_membrane) {
   const CanonicalCut& canonical = cut.field.shape().cut();
-  const auto [u, time_offset] = canonical_place(s, cut.complete(), canonical);
+  const auto [u, time_offset] = cut.volume.canonical(s, cut.complete());
   const double t = std::clamp(blade + time_offset, 0., canonical.length);
   Opening result;
   result.frame = cut.volume.skin_frame(s / cut.scale());
@@ -56,8 +56,11 @@ double depth_at(const Wound& cut, double s) {
 
 double CornerLean::at(double away) const { return share * std::exp(-away / reach); }
 
-CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
-                            const std::vector<Amplitude>& in_membrane) {
+namespace {
+
+/// `left`: the other cut does not cross this one, but leaves it to one side.
+CornerLean lean_at(const Crossing& crossing, bool left, const std::vector<const Wound*>& cuts, double blade,
+                   const std::vector<Amplitude>& in_membrane) {
   const auto opening = [&](std::size_t k, double s) {
     return opening_of(*cuts[k], s, k + 1 < cuts.size() ? cuts[k]->complete() : blade, in_membrane[k]);
   };
@@ -76,8 +79,10 @@ CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wo
   const auto& parameters = cuts[crossing.cut]->field.shape().parameters;
   const double thickness = parameters.value_or(parameters->skin.thickness, usual_thickness),
                of_right_angle = rises * std::pow(depth / thickness, with_depth);
+  const double straight_lip = (of_right_angle - with_cosine) * own_half.y();
   // Of the piece before (-1) or behind (1) the other cut, and at v < 0 (-1) or v > 0 (1).
   const auto height = [&](double behind, double side) {
+    if (left && side * crossing.toward > 0) return straight_lip;
     const Vector along(behind, 0), other_edge = side * other_ray,
                                    drawn_back = side * own_half + behind * other_half;
     const double cosine = along.dot(other_edge);
@@ -86,6 +91,21 @@ CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wo
   result.before = (height(-1, 1) - height(-1, -1)) / own.across_alone;
   result.after = (height(1, 1) - height(1, -1)) / own.across_alone;
   return result;
+}
+
+}  // namespace
+
+CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
+                            const std::vector<Amplitude>& in_membrane) {
+  return lean_at(crossing, false, cuts, blade, in_membrane);
+}
+
+CornerLean lean_where_left(std::size_t cut, double s, std::size_t later,
+                           const std::vector<const Wound*>& cuts, double blade,
+                           const std::vector<Amplitude>& in_membrane) {
+  const IncisionVolume& volume = cuts[later]->volume;
+  const Crossing crossing{cut, later, s, volume.opens_on(), 0, volume.leaves_to_right() ? -1. : 1.};
+  return lean_at(crossing, true, cuts, blade, in_membrane);
 }
 
 }  // namespace cleft

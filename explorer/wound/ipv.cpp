@@ -34,6 +34,10 @@ constexpr double least_mean = 1e-3;
 /// taken of on each side.
 constexpr double directions_a_mean = 8, most_directions = 4096;
 constexpr int mean_samples = 8;
+/// Depths of a cut that leaves another: so far from there it opens as in its field; nearer, as there.
+constexpr double opens_on_depths = 1;
+/// And so near to there it begins.
+constexpr double start_depths = 0.1;
 /// The weight of a station's own normal where it is the only one within reach.
 constexpr double own_normal = 1e-9;
 
@@ -81,6 +85,34 @@ void IncisionVolume::opened_by(const VaryingField& field) {
   family_.reset();
   if (field.follows_shape()) family_ = field;
   room_ = WoundRoom(incision_, field, scale_);
+}
+
+void IncisionVolume::leaves(const Incision& earlier) {
+  const double opens_on = std::min(opens_on_depths * field_.cut().depth, field_.cut().length / 2);
+  const Vec3 inside = incision_.path().at(std::min(opens_on / scale_, incision_.path().length())).position;
+  mouth_ = Mouth{&earlier, opens_on, earlier.path().coordinates(inside).v > 0};
+}
+
+double IncisionVolume::Mouth::part(const Vec3& place, Side beside, double scale) const {
+  const ScalpelPath& path = earlier->path();
+  const PathCoordinates at = path.coordinates(place);
+  const double length = earlier->extended_to() > 0 ? earlier->tip() : path.length(),
+               v = beside == Side::both ? at.v : 0, inside = std::min(at.s, length - at.s);
+  const bool to_right = beside == Side::both ? v > 0 : beside == Side::right;
+  const double from_end = std::hypot(v, inside);
+  // As the lips of a crack, which come together around its ends.
+  const double apart = (inside >= 0 ? (to_right ? 1 : -1) : v / from_end) *
+                       std::sqrt(std::min(1., from_end * scale / opens_on));
+  return (1 + (right ? apart : -apart)) / 2;
+}
+
+CanonicalPlace IncisionVolume::canonical(const Place& at) const {
+  CanonicalPlace place = canonical_place(at.s * scale_, incision_.path().length() * scale_, field_.cut());
+  if (!mouth_) return place;
+  const double s = at.s * scale_, part = mouth_->part(at.place, at.beside, scale_),
+               here = part * std::max(0., mouth_->opens_on - s),
+               beyond = (1 - part) * std::max(0., mouth_->opens_on + s);
+  return {place.u + here - beyond, place.time_offset + here};
 }
 
 double IncisionVolume::part_held_back(double s, Side side) const {
@@ -223,11 +255,18 @@ Side IncisionVolume::side_on_skin(int v, double straight) const {
   return side == Side::both ? side_of(straight) : side;
 }
 
+/// Where a cut leaves another one, the place at which it begins is on the lip beyond, which stays whole.
+Side IncisionVolume::beside_start(const CutMesh::Vertex& vertex) const {
+  if (!mouth_ || side_of(vertex.kind) != Side::both || vertex.s * scale_ > start_depths * field_.cut().depth)
+    return Side::both;
+  return mouth_->right ? Side::left : Side::right;
+}
+
 std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const CutMesh::Vertex& vertex = incision_.mesh().vertex(v);
   if (vertex.cut == incision_.cut())  // lips, walls and closed ends know where they are
     return Place{vertex.position,      vertex.s, 0, -vertex.depth_fraction * field_.cut().depth,
-                 side_of(vertex.kind), true,     0};
+                 side_of(vertex.kind), true,     0, beside_start(vertex)};
   const Surroundings::Label& label = labels_[v];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(vertex.position);
@@ -240,7 +279,8 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
                -vertex.depth * scale_,
                side,
                on_wall,
-               straight};
+               straight,
+               mouth_ && vertex.cut == mouth_->earlier->cut() ? side_of(vertex.kind) : Side::both};
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
@@ -249,7 +289,7 @@ std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, double depth, int nearest,
-                                                         Side side) const {
+                                                         Side side, Side beside) const {
   const Surroundings::Label& label = labels_[nearest];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(place);
@@ -259,12 +299,11 @@ std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, doub
   const double own = incision_.path().depth(at.s) * scale_, canonical = field_.cut().depth;
   const double w = depth < own ? -depth / own * canonical : own - depth - canonical;
   return activate(-1, {place, incision_.path().steady_place(place, at),
-                       Surroundings::across(straight, label.detour, side), w, side, false, straight});
+                       Surroundings::across(straight, label.detour, side), w, side, false, straight, beside});
 }
 
 std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at) const {
-  const ScalpelPath& path = incision_.path();
-  CanonicalPlace place = canonical_place(at.s * scale_, path.length() * scale_, field_.cut());
+  CanonicalPlace place = canonical(at);
   const double v = at.across * scale_;
   // At the cut's start, but for rounding, the tip passes at once; next to it, the history would be endless.
   const double from_start = place.u - field_.cut().start;

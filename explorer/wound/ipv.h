@@ -57,6 +57,17 @@ class IncisionVolume {
   /// family's tells the directions of frames.
   void opened_by(const VaryingField& field);
 
+  /// The cut begins in the wound of an earlier one, which must outlive it: next to there it opens on.
+  void leaves(const Incision& earlier);
+  const Incision* left() const { return mouth_ ? mouth_->earlier : nullptr; }  ///< none: it leaves none
+
+  bool leaves_to_right() const { return mouth_ && mouth_->right; }   ///< to v > 0 of that one
+  double opens_on() const { return mouth_ ? mouth_->opens_on : 0; }  ///< mm: so far as there
+  /// The place on the canonical cut of s mm of the path, of `length` mm, on a lip.
+  CanonicalPlace canonical(double s, double length) const {
+    return canonical_place(s, length, field_.cut(), opens_on());
+  }
+
   /// Must be called after each change of the mesh with the vertices of changed triangles and new vertices,
   /// sorted.
   void update(const std::vector<int>& vertices);
@@ -69,7 +80,9 @@ class IncisionVolume {
 
   /// The coordinates of a place `depth` mm below the skin, where `nearest` is the nearest vertex of the skin.
   /// `side`: the side of the cut's surface for a place on it; elsewhere `both`. Its `vertex` is -1.
-  std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side) const;
+  /// Likewise `beside`, of the cut that it leaves.
+  std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side,
+                                           Side beside = Side::both) const;
 
   /// The part of the field's displacement that a lip does not take at s of the path, because the path bends
   /// or comes back, or the skin folds, too near to it.
@@ -88,8 +101,10 @@ class IncisionVolume {
     Side side;
     bool on_cut;
     double straight;  // distance from the path, mesh units, on the side of v
+    Side beside;      // if it is on the surface of the cut that this one leaves
   };
   std::optional<Place> place_of(int vertex) const;
+  Side beside_start(const CutMesh::Vertex& vertex) const;
   std::optional<ActiveVertex> activate(int vertex, const Place& at) const;
   struct WoundSide {
     Side side;
@@ -103,6 +118,7 @@ class IncisionVolume {
   std::pair<std::size_t, double> place_along(double s) const;
   PathFrame frame_along(double s, const std::optional<Vec3>& along) const;
   double lift_of_tilted_blade(double s, double v) const;
+  CanonicalPlace canonical(const Place& at) const;
 
   const Incision& incision_;
   const Field& field_;
@@ -110,6 +126,15 @@ class IncisionVolume {
   std::optional<VaryingField> family_;       // displaces along its own directions, and lifts a tilted blade
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
   WoundRoom room_;
+  /// Where the cut leaves another one.
+  struct Mouth {
+    const Incision* earlier;
+    double opens_on;  // mm from there
+    bool right;       // the side of the earlier one on which the cut lies
+    /// 1 in the skin of this side, 0 beyond the other cut, and between around its ends.
+    double part(const Vec3& place, Side beside, double scale) const;
+  };
+  std::optional<Mouth> mouth_;
   std::vector<Vec3> along_;      // T at even distances along the path, means
   std::vector<double> tilt_;     // there, of the blade against the skin's normal, radians, means
   std::vector<double> station_;  // s of the surroundings' stations

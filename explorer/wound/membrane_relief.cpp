@@ -27,6 +27,8 @@ constexpr double touching = 0.25, shortest_piece = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
 /// where it opens little alone, the field cannot open it otherwise.
 constexpr double most_of_touching = 1.1;
+/// Of a piece: so near to where another cut leaves it, it opens as in the piece's middle.
+constexpr double next_to_mouth = 0.01;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
 
@@ -74,6 +76,7 @@ struct Cut {
   };
   std::vector<Piece> pieces;
   std::vector<double> corners;  // mm along the path
+  std::vector<double> mouths;   // likewise, of cuts that leave it
 
   /// `touched`: where pieces end.
   Cut(const Wound& wound, std::vector<double> touched) {
@@ -82,7 +85,8 @@ struct Cut {
     const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
     std::sort(touched.begin(), touched.end());
     touched.push_back(length);
-    corners.push_back(0);
+    const bool leaves = wound.volume.left() && touched.front() < shortest_piece * piece;
+    corners.push_back(leaves ? touched.front() : 0);  // what is beyond the cut that it leaves opens nothing
     for (const double to : touched) {
       const double from = corners.back();
       const bool last = to == length;
@@ -95,6 +99,20 @@ struct Cut {
       pieces.push_back(
           {place(corners[i]), place(middle), place(corners[i + 1]), wound.volume.skin_frame(middle / scale)});
     }
+  }
+
+  /// The same, begun `count` pieces before its start, straight.
+  Cut begun_before(int count) const {
+    Cut result = *this;
+    const double piece = corners[1] - corners[0];
+    for (int i = 0; i < count; ++i) {
+      const Piece& next = result.pieces.front();
+      const Vec3 back = -piece * next.frame.along;
+      result.pieces.insert(result.pieces.begin(),
+                           {next.begin + back, next.begin + 0.5 * back, next.begin, next.frame});
+      result.corners.insert(result.corners.begin(), result.corners.front() - piece);
+    }
+    return result;
   }
 
   Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(pieces.size()); }
@@ -140,8 +158,49 @@ Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
   return result;
 }
 
-/// What is opened over what opens across the cut alone.
-Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen::VectorXd& alone) {
+/// How a cut that leaves another one opens alone, as its field shows it: next to there, as so far from the
+/// start of one that has begun before.
+class ShownAlone {
+ public:
+  ShownAlone() = default;  ///< of a cut that leaves none
+  ShownAlone(const CutMembrane& membrane, const Wound& wound, const Cut& cut) {
+    opens_on_ = wound.volume.opens_on();
+    if (!(opens_on_ > 0)) return;
+    piece_ = cut.corners[1] - cut.corners[0];
+    before_ = std::max(1, static_cast<int>(std::lround(opens_on_ / piece_ - 0.5)));
+    const Cut longer = cut.begun_before(before_);
+    taken_ = taken(membrane, longer, longer);
+    const Eigen::VectorXd tractions = tractions_on(wound, cut);
+    tractions_.resize(longer.rows());
+    for (int i = 0; i < before_; ++i) tractions_.segment<2>(2 * i) = tractions.head<2>();
+    tractions_.tail(tractions.size()) = tractions;
+  }
+
+  /// Of the pieces that are open.
+  void in(Eigen::VectorXd& alone) const {
+    const auto open = static_cast<int>(alone.size() / 2);
+    for (int i = 0; i < open && i < before_; ++i) {
+      const int pieces = before_ - i + open;
+      const Eigen::VectorXd opened = taken_.block(2 * i, 2 * i, 2 * pieces, 2 * pieces)
+                                         .partialPivLu()
+                                         .solve(tractions_.segment(2 * i, 2 * pieces));
+      const double length = pieces * piece_, middle = (before_ + 0.5) * piece_,
+                   there = std::min(opens_on_, length - piece_ / 2);
+      alone.segment<2>(2 * i) =
+          std::sqrt(there * (length - there) / (middle * (length - middle))) * opened.segment<2>(2 * before_);
+    }
+  }
+
+ private:
+  double opens_on_ = 0, piece_ = 0;  // mm
+  int before_ = 0;                   // pieces
+  Eigen::MatrixXd taken_;
+  Eigen::VectorXd tractions_;
+};
+
+/// What is opened over what opens across the cut alone. `ahead`: where nothing is open yet.
+Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen::VectorXd& alone,
+                     double ahead = 1) {
   double largest = 0;
   for (Eigen::Index i = 1; i < alone.size(); i += 2) largest = std::max(largest, alone(i));
   Amplitude result{cut.stations(), {}};
@@ -151,9 +210,18 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
     result.values.push_back(value);
     result.shifts.push_back(opens ? (opened(i) - value * alone(i)) / alone(i + 1) : 0);
   }
-  // Ahead of the blade as at its tip.
-  result.values.resize(cut.pieces.size(), result.values.empty() ? 1 : result.values.back());
+  // Ahead of the blade as at its tip. The skin between two cuts that leave it moves along it as a whole.
+  result.values.resize(cut.pieces.size(), result.values.empty() ? ahead : result.values.back());
   result.shifts.resize(cut.pieces.size(), result.shifts.empty() ? 0 : result.shifts.back());
+  for (const double mouth : cut.mouths) {
+    const auto next = std::ranges::upper_bound(result.stations, mouth);
+    if (next == result.stations.begin() || next == result.stations.end()) continue;
+    const auto at = next - result.stations.begin();
+    const double to_both = next_to_mouth * (next[0] - next[-1]);
+    result.stations.insert(next, {mouth - to_both, mouth + to_both});
+    for (std::vector<double>* list : {&result.values, &result.shifts})
+      list->insert(list->begin() + at, {(*list)[at - 1], (*list)[at]});
+  }
   return result;
 }
 
@@ -174,7 +242,10 @@ class Together {
         if (!at.empty()) touch[i][i] = touch[i][j] = touch[j][i] = true;
       }
       touch_.push_back(touch[i][i]);
+      leaves_.push_back(wounds[i]->volume.left() != nullptr);
       cuts_.emplace_back(*wounds[i], std::move(touched));
+      for (std::size_t j = i + 1; j < count; ++j)
+        if (const auto at = wounds[i]->left_at(*wounds[j])) cuts_.back().mouths.push_back(*at);
       first.push_back(first.back() + cuts_.back().rows());
     }
     const Eigen::Index complete = first[cuts_.size() - 1], last = cuts_.back().rows();
@@ -186,10 +257,15 @@ class Together {
         all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) =
             taken(membrane.with_reach((touch[i][j] ? reach_touching : reach_apart) * membrane.reach()),
                   cuts_[i], cuts_[j]);
-      if (i + 1 < cuts_.size())
+      shown_.emplace_back(
+          membrane.with_reach((touch[i][i] ? reach_touching : reach_apart) * membrane.reach()), *wounds[i],
+          cuts_[i]);
+      if (i + 1 < cuts_.size()) {
         alone_.push_back(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
                              .partialPivLu()
                              .solve(tractions.segment(first[i], cuts_[i].rows())));
+        shown_[i].in(alone_.back());
+      }
     }
     last_alone_ = all.bottomRightCorner(last, last), last_tractions_ = tractions.tail(last);
     const auto factor = all.topLeftCorner(complete, complete).partialPivLu();
@@ -229,18 +305,24 @@ class Together {
       result.push_back(over_alone(cuts_[k], of_complete.segment(row, alone_[k].size()), alone_[k]));
       row += alone_[k].size();
     }
-    result.push_back(
-        over_alone(cuts_.back(), opened,
-                   last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows))));
+    Eigen::VectorXd alone =
+        last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows));
+    shown_.back().in(alone);
+    result.push_back(over_alone(cuts_.back(), opened, alone, leaves_.back() ? 0 : 1));
     for (std::size_t k = 0; k < result.size(); ++k) {
-      if (touch_[k])
-        for (double& value : result[k].values) value = std::min(value, most_of_touching);
+      if (!touch_[k]) continue;
+      // Where a cut leaves another one it has no end.
+      const double from = leaves_[k] ? cuts_[k].corners.back() / 2 : 0;
+      for (std::size_t i = 0; i < result[k].values.size(); ++i)
+        if (result[k].stations[i] >= from)
+          result[k].values[i] = std::min(result[k].values[i], most_of_touching);
     }
     return result;
   }
 
   std::vector<Cut> cuts_;
-  std::vector<bool> touch_;             // others
+  std::vector<bool> touch_, leaves_;  // others
+  std::vector<ShownAlone> shown_;
   std::vector<Eigen::VectorXd> alone_;  // of the complete ones
   Eigen::MatrixXd last_alone_, left_;   // of the last one, alone and with what the complete ones leave of it
   Eigen::MatrixXd by_last_;             // how far openings of the last one close the complete ones

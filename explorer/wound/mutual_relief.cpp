@@ -39,6 +39,9 @@ const double gauss = 1 / std::numbers::sqrt3;
 /// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross. Of that, so
 /// far from the crossing along a cut its corners are, and ends what keeps them from parting.
 constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
+/// Depths to either side of where another cut leaves this one, over which what its field does not move of the
+/// lips is linear: the lip beyond is whole there.
+constexpr double mouth_reach = 0.5;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
 
@@ -71,15 +74,21 @@ double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, d
   return sum * std::min(1., std::abs(at.uvw.y) / (lean_fades * cut.depth));
 }
 
-/// What lips lean for each mm of shear, over the displacement across of the complete cut alone. What leans is
-/// held by what is next to it, and so falls toward the ends of a cut over its depth alone.
-double leaning_at(double s, const Wound& wound) {
+/// How far a complete cut alone opens across, mm.
+double opening_at(double s, const Wound& wound) {
+  const double length = wound.complete();
+  const auto [u, time_offset] = wound.volume.canonical(s, length);
+  const double t = std::clamp(length + time_offset, 0., wound.field.shape().cut().length);
+  return wound.field.displacement({u, 0, 0}, Side::right, t, s).y -
+         wound.field.displacement({u, 0, 0}, Side::left, t, s).y;
+}
+
+/// What lips lean for each mm of shear, over that. What leans is held by what is next to it, and so falls
+/// toward the ends of a cut over its depth alone.
+double leaning_at(double s, const Wound& wound, double opening) {
   const CanonicalCut& cut = wound.field.shape().cut();
-  const double length = wound.complete(), from_end = std::min(s, length - s);
-  const auto [u, time_offset] = canonical_place(s, length, cut);
-  const double t = std::clamp(length + time_offset, 0., cut.length);
-  const double opening = wound.field.displacement({u, 0, 0}, Side::right, t, s).y -
-                         wound.field.displacement({u, 0, 0}, Side::left, t, s).y;
+  const double length = wound.complete(),
+               from_end = wound.volume.left() ? length - s : std::min(s, length - s);
   if (!(opening > 0)) return 0;
   return leaning / opening * std::sqrt(std::clamp(from_end / (leans_fully * cut.depth), 0., 1.));
 }
@@ -163,24 +172,38 @@ class AtStations {
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       const Wound& cut = *cuts[i];
       Amplitude& own = alone_[i];
-      for (const auto& [s, vertex] : stations_of(i)) {
+      for (const auto& [s, lips] : stations_of(i)) {
         if (!own.stations.empty() && s <= own.stations.back()) continue;
         const std::size_t station = own.stations.size();
-        own.stations.push_back(s), leaning_[i].push_back(leaning_at(s, cut));
-        if (!vertex) {
+        const double opening = opening_at(s, cut);
+        own.stations.push_back(s), leaning_[i].push_back(leaning_at(s, cut, opening));
+        if (!lips) {
           between_.emplace_back(i, station);
           continue;
         }
         const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
         for (std::size_t j = 0; j < cuts.size(); ++j) {
           if (j == i) continue;
-          const std::optional<ActiveVertex> at = cuts[j]->volume.locate(*vertex);
+          const std::optional<ActiveVertex> at = cuts[j]->volume.locate(lips->first);
           if (!at) continue;
+          if (cuts[j]->volume.left() == cut.incision && opening > 0)
+            if (const auto right = cuts[j]->volume.locate(lips->second))
+              parted_.push_back({i, j, station, at->s, opening, *at, *right});
           const bool complete = j + 1 < cuts.size();
           places_.push_back({i, j, station, at->s,
                              complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
                              normal});
         }
+      }
+      const double beside = mouth_reach * cut.field.shape().cut().depth;
+      for (std::size_t j = 0; j < cuts.size(); ++j) {
+        const std::optional<double> mouth = cut.left_at(*cuts[j]);
+        if (!mouth) continue;
+        const auto first = std::ranges::lower_bound(own.stations, *mouth - beside),
+                   last = std::ranges::upper_bound(own.stations, *mouth + beside);
+        if (first != own.stations.begin() && last != own.stations.end())
+          mouths_.push_back({i, j, *mouth, static_cast<std::size_t>(first - own.stations.begin()) - 1,
+                             static_cast<std::size_t>(last - own.stations.begin())});
       }
       own.values.assign(own.stations.size(), 1);
       own.leans = own.shifts = std::vector<double>(own.stations.size(), 0);
@@ -189,33 +212,27 @@ class AtStations {
 
   std::vector<Amplitude> with_blade_at(double blade, const std::vector<Amplitude>& in_membrane) const {
     std::vector<Amplitude> result = alone_;
-    for (const Place& place : places_) {
-      const double shear = place.by + 1 < cuts_.size()
-                               ? place.shear
-                               : shear_across(*cuts_[place.by], place.at, place.normal, blade);
-      double& lean = result[place.cut].leans[place.station];
-      lean += leaning_[place.cut][place.station] * shear * std::min(most, in_membrane[place.by].at(place.s));
-      lean = std::clamp(lean, -most_lean, most_lean);
-    }
-    for (const auto& [cut, station] : between_) {
-      const std::vector<double>& s = result[cut].stations;
-      std::vector<double>& lean = result[cut].leans;
-      const std::size_t next = next_vertex(cut, station);
-      lean[station] = std::lerp(lean[station - 1], lean[next],
-                                (s[station] - s[station - 1]) / (s[next] - s[station - 1]));
-    }
+    lean_by_shear(blade, in_membrane, result);
+    std::vector<Amplitude> by_branches = moved_by_branches(blade, in_membrane);
+    fill_between(result, by_branches);
     std::vector<double> parted;
     for (const Crossing& crossing : crossings_) {
       const CornerLean corners = lean_at_crossing(crossing, cuts_, blade, in_membrane);
       lean_by_corners(crossing, corners, result[crossing.cut]);
       parted.push_back(corners.share);
     }
+    for (const Mouth& mouth : mouths_)
+      lean_at_mouth(mouth, lean_where_left(mouth.cut, mouth.s, mouth.by, cuts_, blade, in_membrane),
+                    result[mouth.cut]);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
+        const Amplitude& other = by_branches[i];
         const Amplitude::At there = in_membrane[i](result[i].stations[k]);
-        result[i].values[k] = std::min(most, there.value);
-        result[i].shifts[k] = std::clamp(there.shift, -most_shift, most_shift);
+        result[i].leans[k] = std::clamp(result[i].leans[k] - other.leans[k], -most_lean, most_lean);
+        result[i].values[k] = std::min(most, std::max(0., there.value - other.values[k]));
+        result[i].shifts[k] = std::clamp(there.shift - other.shifts[k], -most_shift, most_shift);
       }
+    for (const Mouth& mouth : mouths_) join_over_mouth(mouth, result[mouth.cut]);
     for (std::size_t i = 0; i < crossings_.size(); ++i)
       part_corners(crossings_[i], parted[i], result[crossings_[i].cut]);
     return result;
@@ -231,11 +248,42 @@ class AtStations {
     Vec3 normal;  // across the own path
   };
 
-  /// The lips of a cut's chain, and places without: where lips change the side to which they lean.
-  std::vector<std::pair<double, std::optional<int>>> stations_of(std::size_t cut) const {
-    std::vector<std::pair<double, std::optional<int>>> result;
-    for (const Incision::ChainVertex& c : cuts_[cut]->incision->chain())
-      result.emplace_back(c.s * cuts_[cut]->scale(), c.left);
+  /// Lips of a cut in the volume of another one that leaves it, and moves them differently.
+  struct Parted {
+    std::size_t cut, by, station;
+    double s;        // mm, along the other's path
+    double opening;  // mm, of the cut alone
+    ActiveVertex left, right;
+  };
+
+  /// Stations of a cut, between which another one leaves it.
+  struct Mouth {
+    std::size_t cut, by;
+    double s;  // mm
+    std::size_t first, last;
+  };
+
+  using Lips = std::pair<int, int>;
+  /// The lips of a cut's chain, and places without: where lips change the side to which they lean, and where
+  /// another cut leaves it.
+  std::vector<std::pair<double, std::optional<Lips>>> stations_of(std::size_t cut) const {
+    std::vector<std::pair<double, std::optional<Lips>>> result;
+    std::vector<double> mouths;
+    for (const Wound* later : cuts_)
+      if (const auto at = cuts_[cut]->left_at(*later)) mouths.push_back(*at);
+    const double beside_mouth = mouth_reach * cuts_[cut]->field.shape().cut().depth;
+    for (const Incision::ChainVertex& c : cuts_[cut]->incision->chain()) {
+      const double s = c.s * cuts_[cut]->scale();
+      const bool at_mouth =
+          std::ranges::any_of(mouths, [&](double mouth) { return std::abs(s - mouth) < beside_mouth; });
+      result.emplace_back(s, at_mouth ? std::nullopt : std::optional<Lips>({c.left, c.right}));
+    }
+    // Its ends have lips.
+    for (const std::size_t end : {std::size_t{0}, result.empty() ? 0 : result.size() - 1})
+      if (end < result.size()) {
+        const Incision::ChainVertex& c = cuts_[cut]->incision->chain()[end];
+        result[end].second = Lips{c.left, c.right};
+      }
     const double first = result.empty() ? 0 : result.front().first,
                  last = result.empty() ? 0 : result.back().first;
     for (const Crossing& crossing : crossings_)
@@ -253,6 +301,71 @@ class AtStations {
     do ++station;
     while (std::ranges::binary_search(between_, std::pair(cut, station)));
     return station;
+  }
+
+  void lean_by_shear(double blade, const std::vector<Amplitude>& in_membrane,
+                     std::vector<Amplitude>& result) const {
+    for (const Place& place : places_) {
+      const double shear = place.by + 1 < cuts_.size()
+                               ? place.shear
+                               : shear_across(*cuts_[place.by], place.at, place.normal, blade);
+      double& lean = result[place.cut].leans[place.station];
+      lean += leaning_[place.cut][place.station] * shear * std::min(most, in_membrane[place.by].at(place.s));
+      lean = std::clamp(lean, -most_lean, most_lean);
+    }
+  }
+
+  /// How far those that leave a cut part its lips themselves, as parts of its own displacement across.
+  std::vector<Amplitude> moved_by_branches(double blade, const std::vector<Amplitude>& in_membrane) const {
+    std::vector<Amplitude> result = alone_;
+    for (Amplitude& one : result) std::ranges::fill(one.values, 0);
+    for (const Parted& lips : parted_) {
+      const double at = lips.by + 1 < cuts_.size() ? cuts_[lips.by]->complete() : blade;
+      const auto moved = [&](const ActiveVertex& lip) {
+        const VaryingField& field = cuts_[lips.by]->field;
+        const double t = lip.time_at(at, field.shape().cut().length);
+        return lip.in_mesh(field.displacement(lip.uvw, lip.side_at(at), t, lip.s));
+      };
+      const Wound& cut = *cuts_[lips.cut];
+      const PathFrame frame = cut.volume.skin_frame(alone_[lips.cut].stations[lips.station] / cut.scale());
+      const Vec3 apart =
+          in_membrane[lips.by].at(lips.s) / lips.opening * (moved(lips.right) - moved(lips.left));
+      result[lips.cut].values[lips.station] += dot(apart, frame.across);
+      result[lips.cut].shifts[lips.station] += dot(apart, frame.along);
+      result[lips.cut].leans[lips.station] += dot(apart, frame.outward);
+    }
+    return result;
+  }
+
+  /// Linear at stations without lips.
+  void fill_between(std::vector<Amplitude>& result, std::vector<Amplitude>& by_branches) const {
+    for (const auto& [cut, station] : between_) {
+      const std::vector<double>& s = result[cut].stations;
+      const std::size_t next = next_vertex(cut, station);
+      const double part = (s[station] - s[station - 1]) / (s[next] - s[station - 1]);
+      for (std::vector<double>* list :
+           {&result[cut].leans, &by_branches[cut].values, &by_branches[cut].shifts, &by_branches[cut].leans})
+        (*list)[station] = std::lerp((*list)[station - 1], (*list)[next], part);
+    }
+  }
+
+  static void lean_at_mouth(const Mouth& mouth, const CornerLean& corners, Amplitude& cut) {
+    for (std::size_t k = 0; k < cut.stations.size(); ++k) {
+      const double from = cut.stations[k] - mouth.s;
+      cut.leans[k] =
+          std::lerp(cut.leans[k], from < 0 ? corners.before : corners.after, corners.at(std::abs(from)));
+    }
+  }
+
+  /// Linear from one side of the mouth to the other.
+  static void join_over_mouth(const Mouth& mouth, Amplitude& cut) {
+    const std::size_t first = mouth.first, last = mouth.last;
+    for (std::size_t k = first + 1; k < last; ++k) {
+      const double part =
+          (cut.stations[k] - cut.stations[first]) / (cut.stations[last] - cut.stations[first]);
+      for (std::vector<double>* list : {&cut.values, &cut.shifts, &cut.leans})
+        (*list)[k] = std::lerp((*list)[first], (*list)[last], part);
+    }
   }
 
   /// Next to a crossing lips lean as its corners do.
@@ -284,6 +397,8 @@ class AtStations {
   std::vector<Crossing> crossings_;
   std::vector<Amplitude> alone_;  // stations, with 1 at all of them
   std::vector<Place> places_;
+  std::vector<Parted> parted_;
+  std::vector<Mouth> mouths_;
   std::vector<std::pair<std::size_t, std::size_t>> between_;  // a cut, and a station of it without lips
   std::vector<std::vector<double>> leaning_;                  // at the stations
 };

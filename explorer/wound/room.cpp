@@ -32,7 +32,8 @@ constexpr int nodes_along = 33, nodes_across = 33, samples_in_time = 3, samples_
 
 }  // namespace
 
-CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut) {
+CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut, double opens_on) {
+  if (opens_on > 0 && s < opens_on) return {cut.start + opens_on, opens_on - s};
   if (length <= cut.length || s < cut.length / 2) return {cut.start + s, 0};
   if (length - s < cut.length / 2) return {cut.start + cut.length - (length - s), cut.length - length};
   return {cut.start + cut.length / 2, cut.length / 2 - s};

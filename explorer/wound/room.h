@@ -40,11 +40,12 @@ class NearestPlace {
   std::vector<int> axis_;
 };
 
-/// The place on the canonical cut of the place s of a path of length `length` (all mm).
+/// The place on the canonical cut of the place s of a path of length `length` (all mm). `opens_on`: of a cut
+/// that leaves another one, which is open at its start; nearer to it than that it opens as there.
 struct CanonicalPlace {
   double u, time_offset;
 };
-CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut);
+CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut, double opens_on = 0);
 
 /// The largest displacement of a field at each place of the skin while the blade goes the given length, mm;
 /// sampled, and of two places next to each other the larger one.

@@ -134,6 +134,7 @@ struct Junction {
   double tension;   ///< along the other over across it
   double sine;      ///< of the angle between the two
   double from_end;  ///< mm: of the own path, to its nearer end
+  bool is_left;     ///< the own cut begins in the other one, and opens on there (IncisionVolume::leaves)
 
   /// Where it crosses the other, all four corners open as the cuts themselves do (corner_lean.h).
   bool is_crossing(double depth) const { return from_end > depth / 2; }
@@ -151,7 +152,8 @@ std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::s
       const Vec3 along = cuts[j]->incision->path().at(vertex.s).along;
       found.push_back({j, across > 0 ? cuts[j]->field.prestress(&Prestress::uu, s) / across : infinity,
                        norm(cross(along, own.path().at(c.s).along)),
-                       std::min(c.s, own.path().length() - c.s) * cuts[i]->scale()});
+                       std::min(c.s, own.path().length() - c.s) * cuts[i]->scale(),
+                       cuts[i]->volume.left() == cuts[j]->incision && c.s < own.path().length() / 2});
     }
   }
   return found;
@@ -212,19 +214,23 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
         nearest_beside = std::min(nearest_beside, apart);
     }
-    double judged = 0;
+    double judged = 0, left = 0;
     for (const Junction& x : junctions[i]) {
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
-      if (!x.is_crossing(field.cut().depth)) judged = std::max(judged, x.tension);
+      if (!x.is_crossing(field.cut().depth)) {
+        double& most = x.is_left ? left : judged;
+        most = std::max(most, x.tension);
+      }
     }
     const bool known = turned || pulled_alike(field);
     const double against_first = v.junction_tension ? 0 : angle_between(*cuts[0], *cuts[i]);
     const double widest = opening(cuts[i]->field, std::min(length, canonical));
     const double own = turned || !(widest > 0) ? 0 : error_of_gape(field).value_or(0) / widest;
-    v.expected_error = opening_error_of(*cuts[i], known,
-                                        {nearest_beside, known ? judged : v.junction_tension.value_or(0),
-                                         v.length_defect, own, field.interpolation.has_value(), against_first,
-                                         widest > 0 ? std::max(v.held_back, lips_guarded[i]) / widest : 0});
+    v.expected_error =
+        opening_error_of(*cuts[i], known,
+                         {nearest_beside, known ? judged : v.junction_tension.value_or(0), left,
+                          v.length_defect, own, field.interpolation.has_value(), against_first,
+                          widest > 0 ? std::max(v.held_back, lips_guarded[i]) / widest : 0});
     const bool several = cuts.size() > 1;
     const std::string which = several ? "cut " + std::to_string(i + 1) + ": " : "";
     if (!v.unsound.empty()) v.warnings.push_back(which + warning_of(v.unsound, several));

@@ -1,6 +1,10 @@
 // A cut that opens: the incision, its field, and the coordinates of the mesh's vertices in that field.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "explorer/incision/incision.h"
 #include "explorer/wound/ipv.h"
 #include "explorer/wound/path_shape.h"
@@ -42,6 +46,25 @@ struct Wound {
   /// The position of the blade up to which the others feel the cut, once it is made: complete(), but where it
   /// has stopped short of that.
   double felt() const { return incision->is_short_of_end() ? reached() : complete(); }
+
+  /// Whether the cut begins in the wound of an earlier one, and leads away from it.
+  bool leaves(const Wound& earlier) const {
+    constexpr double on_wound = 0.1, rounding = 1e-3, least_sine = 0.3;  // depths of the cut
+    const ScalpelPath &own = incision->path(), &other = earlier.incision->path();
+    const double depth = field.shape().cut().depth / scale();
+    const PathCoordinates start = other.coordinates(own.at(0).position),
+                          inside = other.coordinates(own.at(std::min(depth, own.length())).position);
+    const double beyond = inside.v > 0 ? -start.v : start.v;
+    return start.s > 0 && start.s * earlier.scale() < earlier.complete() && std::abs(start.w) < depth &&
+           -rounding * depth < beyond && beyond < on_wound * depth &&
+           std::abs(inside.v - start.v) > least_sine * std::min(depth, own.length());
+  }
+
+  /// Where a later cut leaves this one, mm along the path; none: it does not.
+  std::optional<double> left_at(const Wound& later) const {
+    if (later.volume.left() != incision) return std::nullopt;
+    return scale() * incision->path().coordinates(later.incision->path().at(0).position).s;
+  }
 
   const Incision* incision;
   VaryingField field;

@@ -1,6 +1,7 @@
 #include "explorer/wound/wounds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/error.h"
@@ -9,7 +10,10 @@ namespace cleft {
 
 Wound& Wounds::add(Wound wound) {
   relief_.push_back(relief_.empty() ? Relief() : relief_.back());
-  return wounds_.emplace_back(std::move(wound));
+  Wound& added = wounds_.emplace_back(std::move(wound));
+  for (std::size_t k = 0; k + 1 < wounds_.size(); ++k)
+    if (added.leaves(wounds_[k])) added.volume.leaves(*wounds_[k].incision);
+  return added;
 }
 
 std::vector<const Wound*> Wounds::first(std::size_t count) const {
@@ -44,9 +48,12 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
   for (std::size_t k = 0; k <= blade.cut; ++k) {
     const Wound& wound = wounds_[k];
     const double s = k == blade.cut ? blade.s : wound.complete();
-    auto at = wound.volume.locate_below(place, depth, nearest, sides[k]);
+    const auto left = std::ranges::find_if(
+        wounds_, [&](const Wound& earlier) { return earlier.incision == wound.volume.left(); });
+    const Side beside = left == wounds_.end() ? Side::both : sides[left - wounds_.begin()];
+    auto at = wound.volume.locate_below(place, depth, nearest, sides[k], beside);
     // Ahead of the blade nothing has two sides yet, though the cell may have been split.
-    if (at && at->s >= s) at = wound.volume.locate_below(place, depth, nearest, Side::both);
+    if (at && at->s >= s) at = wound.volume.locate_below(place, depth, nearest, Side::both, beside);
     if (!at) continue;
     const double own_time = at->time_at(s, wound.field.shape().cut().length);
     sum += 1 / wound.scale() *

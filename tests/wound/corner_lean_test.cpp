@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -87,6 +88,38 @@ TEST(CornerLean, IsThatOfSimulatedCrossings) {
       EXPECT_NEAR(behind * cuts.lean(one.first, one.second, behind), one.lean,
                   0.12 * std::abs(one.lean) + 0.02)
           << one.angle << " degrees, " << one.depth << " mm deep";
+  }
+}
+
+/// Beside a cut that leaves another one a corner stands against a lip that stays straight.
+TEST(CornerLean, WhereACutLeavesAnotherIsThatOfSimulatedBranches) {
+  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
+  const Field field =
+      in_tension(opening_field({-half, 2 * half, 3}, 50, 50, 6, 4), {{"skin.thickness", 1.5}});
+  for (const double angle : {90., 60.}) {
+    CutMesh skin = mesh;
+    const Vec3 along{std::cos(angle * degrees), std::sin(angle * degrees), 0};
+    Incision main(skin, path_through({{-half, 0, 0}, {half, 0, 0}}, up, 3), IncisionOptions{});
+    main.advance_to(2 * half);
+    Incision branch(skin, path_through({-0.1 * along, half * along}, up, 3), IncisionOptions{});
+    branch.advance_to(branch.path().length());
+    Wound of_main(main, field, 1), of_branch(branch, field, 1);
+    ASSERT_TRUE(of_branch.leaves(of_main));
+    of_branch.volume.leaves(main);
+    const std::vector<const Wound*> cuts = {&of_main, &of_branch};
+    const auto alone = [&](const Wound& cut, double s) {
+      const auto [u, time] = cut.volume.canonical(s, cut.complete());
+      const double t = std::clamp(cut.complete() + time, 0., 2 * half);
+      return field.displacement({u, 0, 0}, Side::right, t).y - field.displacement({u, 0, 0}, Side::left, t).y;
+    };
+    const double across = alone(of_main, half);
+    // Pulled alike, of cuts of 30 and 15 mm: 3.25 and 2.5 mm across at a right angle.
+    const std::vector<Amplitude> in_membrane = {
+        {{0}, {(angle == 90 ? 3.25 : 3.2) / across}},
+        {{0}, {(angle == 90 ? 2.5 : 2.45) / alone(of_branch, of_branch.volume.opens_on())}}};
+    const CornerLean found = lean_where_left(0, half, 1, cuts, branch.path().length(), in_membrane);
+    EXPECT_NEAR(found.before * across, angle == 90 ? 0.38 : 0.35, 0.12) << angle;
+    EXPECT_NEAR(found.after * across, angle == 90 ? 0.36 : 0.14, 0.12) << angle;
   }
 }
 

@@ -130,6 +130,47 @@ TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
   }
 }
 
+/// A cut that leaves another one in its middle, and one that ends just before it.
+TEST(MembraneRelief, OfACutThatLeavesAnotherIsOpenAtItsStart) {
+  const Field field = opening_field(canonical, 60, 60, 6, 3);
+  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
+  const auto cut = [&](const std::vector<Vec3>& path) {
+    auto made = std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{});
+    made->advance_to(made->path().length());
+    return made;
+  };
+  const auto main = cut(line(-15, 0.1, 15, 0.1)), branch = cut(line(0, 0, 0, 16));
+  Field pulled = in_tension(field, {{"skin.prestress_v", 0.03}});
+  std::vector<Wound> made;
+  for (const Incision* one : {main.get(), branch.get()}) made.emplace_back(*one, pulled, 1);
+  ASSERT_TRUE(made[1].leaves(made[0]));
+  EXPECT_FALSE(made[0].leaves(made[1]));
+  const ReplayedWounds wounds(std::move(made));
+  ASSERT_EQ(wounds[1].volume.left(), main.get());
+  std::vector<Vec3> now(wounds.vertex_count());
+  wounds.positions(wounds.duration(), now);
+  // The lips of the branch are apart at its start as they are a depth from there.
+  std::vector<double> apart;
+  for (const auto& c : branch->chain())
+    if (c.s > 0.2 && c.s < 6) apart.push_back(norm(now[c.right] - now[c.left]));
+  ASSERT_GT(apart.size(), 4u);
+  for (const double one : apart) EXPECT_NEAR(one, apart.back(), 0.25 * apart.back());
+  EXPECT_GT(apart.back(), 0.5);
+  // The lip beyond stays whole.
+  double before = 0;
+  bool first = true;
+  for (const auto& c : main->chain()) {
+    if (c.s < 10 || c.s > 20) continue;
+    const double along = now[c.left].x - mesh.position(c.left).x, here = mesh.position(c.left).x;
+    if (!first) EXPECT_GT(here + along, before);
+    before = here + along, first = false;
+  }
+  // Nothing of it is open before it is cut.
+  const auto growing = membrane_relief({&wounds[0], &wounds[1]}, {0, 16});
+  for (const double s : {0., 1., 8.}) EXPECT_EQ(growing[0][1].at(s), 0);
+  EXPECT_GT(growing[1][1].at(0), 0.3);
+}
+
 /// Where a cut is crossed its pieces end, wherever that is: where it was within a piece, the piece felt the
 /// other cut as much as it is singular there.
 TEST(MembraneRelief, OfCutsThatCrossChangesLittleWithThePlaceWhereTheyDo) {
