@@ -51,8 +51,9 @@ std::vector<GuardSearch::Part> GuardSearch::mean_of_ring(int n) const {
   return parts;
 }
 
-/// The vertex of a sliver between the ends of its longest edge moves as that edge does there. Whether it is
-/// newly so.
+/// The vertex of a sliver between the ends of its longest edge moves as that edge does there; one on a lip
+/// only where the sliver is not sound with the cuts complete: a lip opens less than the edges beside it tell,
+/// and for a moment displacements are reduced. Whether it is newly so.
 bool GuardSearch::tie(int triangle, std::vector<int>& group) {
   const auto corner = corners(triangle);
   int middle = 0;
@@ -65,7 +66,8 @@ bool GuardSearch::tie(int triangle, std::vector<int>& group) {
   const Vec3 along = mesh_.position(b) - mesh_.position(a), from = mesh_.position(v) - mesh_.position(a);
   const VertexKind kind = mesh_.vertex(v).kind;
   if (n < 0 || in_group_[n] || leader_[n] >= 0 || norm(cross(along, from)) > sliver * longest * longest ||
-      (kind != VertexKind::left_lip && kind != VertexKind::right_lip && !is_free(n)))
+      !(is_free(n) ||
+        ((kind == VertexKind::left_lip || kind == VertexKind::right_lip) && offends_for_good(triangle))))
     return false;
   const double part = dot(from, along) / squared_norm(along);
   tie_[n] = {{number_[a], 1 - part}, {number_[b], part}};
@@ -120,10 +122,9 @@ bool GuardSearch::join() {
   bool joined = false;
   for (const int one : doubtful_) {
     if (one < 0) continue;
-    std::size_t k = 0;
-    while (k < times() && !(lasting_[k] && offends(one, k, false))) ++k;
     const auto corner = corners(one);
-    if (k == times() || std::any_of(corner.begin(), corner.end(), [this](int v) { return number_[v] < 0; }))
+    if (!offends_for_good(one) ||
+        std::any_of(corner.begin(), corner.end(), [this](int v) { return number_[v] < 0; }))
       continue;
     std::vector<int> together;  // with those that corners are joined with
     for (const int v : corner) {

@@ -78,11 +78,7 @@ void GuardSearch::find_lasting_means() {
 }
 
 bool GuardSearch::is_excused() const {
-  return std::any_of(doubtful_.begin(), doubtful_.end(), [this](int one) {
-    for (std::size_t k = 0; k < times(); ++k)
-      if (lasting_[k] && offends(one, k, false)) return true;
-    return false;
-  });
+  return std::any_of(doubtful_.begin(), doubtful_.end(), [this](int one) { return offends_for_good(one); });
 }
 
 void GuardSearch::hold_excused() {
@@ -308,6 +304,13 @@ bool GuardSearch::offends(int one, std::size_t k, bool excused) const {
   const std::array<Vec3, 3> now = moved(one, k);
   if (hardly_moves(one, now) || hardly_bends(one, now)) return false;
   return is_torn(one, now) || (!is_kept(one, now) && !(excused && field_.turns(one, k)));
+}
+
+/// With the cuts complete, excused or not.
+bool GuardSearch::offends_for_good(int one) const {
+  for (std::size_t k = 0; k < times(); ++k)
+    if (lasting_[k] && offends(one, k, false)) return true;
+  return false;
 }
 
 bool GuardSearch::offends(int one) {

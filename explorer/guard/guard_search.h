@@ -131,6 +131,7 @@ class GuardSearch {
   std::array<Vec3, 3> moved(int triangle, std::size_t time) const;
   bool offends(int one);
   bool offends(int one, std::size_t time, bool excused) const;
+  bool offends_for_good(int one) const;
   /// By how much its lips pass each other; less than 0 where they are open.
   static double past(const Pair& pair, const Vec3& left, const Vec3& right) {
     return dot(left - right, pair.across);

@@ -212,6 +212,44 @@ TEST(GuardSearch, LeavesSliversThatHardlyBend) {
   }
 }
 
+/// A cut that passes 0.14 mm beside vertices makes slivers with a corner on a lip between the other two. What
+/// turns such a sliver over for a moment costs the lip nothing for good; what does so for good moves it.
+TEST(GuardSearch, TiesLipsToSliversOnlyForGood) {
+  CutMesh mesh(grid(10, 10, 0, 0, 1));
+  Incision incision(mesh, path_through({{2.5, 4.86, 0}, {7.5, 4.86, 0}}, up, 3), as_it_is());
+  incision.advance_to(incision.path().length());
+  int lip = -1;
+  Vec3 across;  // from the longest edge to the corner between its ends
+  for (std::size_t t = 0; t < mesh.triangles().size() && lip < 0; ++t) {
+    if (!mesh.is_skin(static_cast<int>(t))) continue;
+    const auto& v = mesh.triangle(static_cast<int>(t)).vertex;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 a = mesh.position(v[(i + 1) % 3]), b = mesh.position(v[(i + 2) % 3]);
+      const Vec3 along = normalized(b - a), from = mesh.position(v[i]) - a;
+      const double part = dot(from, along) / norm(b - a);
+      const VertexKind kind = mesh.vertex(v[i]).kind;
+      if ((kind != VertexKind::left_lip && kind != VertexKind::right_lip) || part < 0.5 || part > 0.99)
+        continue;
+      across = from - dot(from, along) * along;
+      if (norm(across) < 0.15 * norm(b - a)) lip = v[i];
+    }
+  }
+  ASSERT_GE(lip, 0);
+  for (const bool for_good : {false, true}) {
+    GuardSearch search(mesh, 0.05, draws_apart);
+    for (const bool lasting : {false, true}) {
+      std::vector<std::pair<int, Vec3>> moved;
+      for (std::size_t v = 0; v < mesh.vertices().size(); ++v)
+        moved.push_back({static_cast<int>(v), {0, 8, 0}});
+      if (!lasting || for_good) moved[static_cast<std::size_t>(lip)].second -= 2 * across;
+      search.add(moved, lasting);
+    }
+    ASSERT_TRUE(search.find());
+    EXPECT_EQ(search.result().moves(lip), for_good);
+    EXPECT_EQ(search.remaining().empty(), for_good) << "what is left to moments";
+  }
+}
+
 /// As at an X, where the second cut's lips beside the first one move into each other for a moment.
 TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
   const CutMesh mesh(grid(10, 10, 0, 0, 1));
