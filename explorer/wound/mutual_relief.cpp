@@ -426,6 +426,7 @@ Relief relief_while_cut(const std::vector<const Wound*>& cuts) {
   const auto same = [](double a, double b) { return b - a < least_step; };
   parts.erase(std::unique(parts.begin(), parts.end(), same), parts.end());
   std::vector<double> blades;
+  blades.reserve(parts.size());
   for (const double part : parts) blades.push_back(part * end);
   return Relief(std::move(parts), mutual_relief(cuts, blades));
 }
