@@ -22,6 +22,11 @@ constexpr double of_tilt_family = 0.035;  // likewise
 /// mm, times the path's curvature, and mm^2, times those of path and skin: of a tilt of 45 degrees, with its
 /// square, in a family, which knows each two of these together at most.
 constexpr double of_tilted_bend = 1.4, of_tilted_bend_in_curved_skin = 75;
+/// mm, times the path's curvature, in a family: of a tension that is larger than the mean across the path, by
+/// that over the mean; and mm^2, times the curvatures of path and skin.
+constexpr double of_bend_along_tension = 0.55, of_bend_in_curved_skin = 20;
+/// At most so many times the mean across: beyond, hardly anything opens.
+constexpr double most_along = 4;
 constexpr double of_shallow = 0.27, of_deep = 0.16;  // times the logarithm of depth over the canonical one
 constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: times the skin's curvatures
 constexpr double of_uneven = 1;    // of the skin: its distance from a quadric, in depths of the cut
@@ -114,17 +119,35 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
   return parts;
 }
 
-/// `whole` is the shape over half the canonical cut.
-Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const Wound& cut, bool known,
-               bool loop) {
+/// The larger tension of the skin anywhere along the path over the mean across it.
+double tension_ratio(const Wound& cut) {
+  constexpr int pieces = 32;
+  double larger = 0, across = 0;
+  for (int i = 0; i < pieces; ++i) {
+    const double s = cut.complete() * (i + 0.5) / pieces;
+    const double uu = cut.field.prestress(&Prestress::uu, s), vv = cut.field.prestress(&Prestress::vv, s),
+                 uv = cut.field.prestress(&Prestress::uv, s);
+    larger = std::max(larger, (uu + vv) / 2 + std::hypot((uu - vv) / 2, uv)), across += vv / pieces;
+  }
+  return across > 0 ? std::min(most_along, larger / across) : larger > 0 ? most_along : 1;
+}
+
+/// `whole` is the shape over half the canonical cut, `pulled` the tension_ratio().
+Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, double pulled, const Wound& cut,
+               bool known, bool loop) {
   const CanonicalCut& canonical = cut.field.shape().cut();
   const double in_cuts = canonical.length / 30, radius = 1 / std::abs(local.curvature);
   Parts parts;
-  if (cut.followed.bend)
+  const double skin = std::max(std::abs(local.skin_u), std::abs(local.skin_v));
+  if (cut.followed.bend) {
     parts.push_back({(loop ? of_loop : 1) * (of_winding * std::abs(local.curvature - whole.curvature) +
                                              of_direction * astray(cut, s)),
                      "the path winds"});
-  else if (known)
+    parts.push_back({of_bend_along_tension * (pulled - 1) * std::abs(local.curvature),
+                     "the path bends, and the skin is pulled # times as hard as across it", pulled});
+    parts.push_back({of_bend_in_curved_skin * skin * std::abs(local.curvature),
+                     "the path bends with a radius of # mm in curved skin", radius});
+  } else if (known)
     parts.push_back(
         {of_bend_turned * square(local.curvature * in_cuts), "the path bends with a radius of # mm", radius});
   else
@@ -133,9 +156,8 @@ Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const
   parts.push_back({(cut.followed.tilt ? of_tilt_family : of_tilt) * square(local.tilt / degrees_45),
                    "the blade is tilted by # degrees", local.tilt});
   if (cut.followed.tilt && cut.followed.bend)
-    parts.push_back({(of_tilted_bend + of_tilted_bend_in_curved_skin *
-                                           std::max(std::abs(local.skin_u), std::abs(local.skin_v))) *
-                         std::abs(local.curvature) * square(local.tilt / degrees_45),
+    parts.push_back({(of_tilted_bend + of_tilted_bend_in_curved_skin * skin) * std::abs(local.curvature) *
+                         square(local.tilt / degrees_45),
                      "the path bends, and the blade is tilted by # degrees", local.tilt});
   if (!cut.followed.depth) {
     const double deeper = std::log(std::max(local.depth, 1e-3) / canonical.depth);
@@ -171,12 +193,13 @@ OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood&
   const double chord = norm(path.at(path.length()).position - path.at(0).position) * cut.scale();
   const bool loop = chord < ends_apart * canonical.depth;
   const bool as_path = !loop && (cut.field.follows_shape() || cut.field.typical().size() > 1);
+  const double pulled = cut.followed.bend ? tension_ratio(cut) : 1;
   const Parts of_whole = parts_of_whole(shape.stations.back(), canonical, known, as_path, neighbourhood);
   OpeningError result;
   for (std::size_t i = 0; i < shape.stations.size(); ++i) {
     const LocalShape& local = shape.values[i];
     const double s = shape.stations[i];
-    Parts parts = parts_at(s, local, whole.at(s), cut, known, loop);
+    Parts parts = parts_at(s, local, whole.at(s), pulled, cut, known, loop);
     parts.insert(parts.begin(), of_whole.begin(), of_whole.end());
     if (cut.tissue && !cut.followed.bone) {
       const Vec3 place = cut.scale() * cut.incision->path().at(s / cut.scale()).position;
