@@ -15,7 +15,7 @@
 #include "params/consistency.h"
 #include "params/encode_limits.h"
 #include "params/hash.h"
-#include "params/lip_formulation.h"
+#include "params/parameters/lip_formulation.h"
 #include "params/sampling/read_sampling.h"
 #include "params/sampling/sampling.h"
 #include "params/sensitivities.h"

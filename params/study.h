@@ -125,7 +125,7 @@ std::vector<Case> cases_of(const Study& study);
 /// Whether a study, or a list of NAME=VALUE, tells tissue.formulation.
 bool tells_formulation(const Study& study);
 bool tells_formulation(const std::vector<std::string>& assignments);
-/// That of a case by its tilt, where the study does not tell it (params/lip_formulation.h).
+/// That of a case by its tilt, where the study does not tell it (params/parameters/lip_formulation.h).
 void settle_formulation(const Study& study, Case& one);
 
 /// The ranges of a study that draws from them, sorted by name: the spelling of a name in the file (dotted or

@@ -11,7 +11,7 @@
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/study_file.h"
 #include "encoder/field/knot_insertion.h"
-#include "params/lip_formulation.h"
+#include "params/parameters/lip_formulation.h"
 
 namespace cleft {
 

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/quantiles.h"
 #include "explorer/study/case_figures.h"
-#include "params/lip_formulation.h"
+#include "params/parameters/lip_formulation.h"
 
 namespace cleft {
 

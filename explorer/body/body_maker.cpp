@@ -16,8 +16,8 @@
 #include "explorer/body/remesh.h"
 #include "explorer/body/skin_coordinates.h"
 #include "explorer/body/smooth_surface.h"
-#include "params/lip_formulation.h"
 #include "params/meshed_cut.h"
+#include "params/parameters/lip_formulation.h"
 
 namespace cleft {
 

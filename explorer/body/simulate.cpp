@@ -10,7 +10,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "explorer/body/body_warnings.h"
-#include "params/lip_formulation.h"
+#include "params/parameters/lip_formulation.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
 #include "solver/body/skin_turn.h"

@@ -31,10 +31,8 @@ constexpr double near_limit = 0.5;
 /// Of vertices, in all: more are not worth the time and the memory.
 constexpr std::size_t most_moments = 1000000;
 /// Of the largest opening, and mm: what a field turns itself in its own flat patch is not worth lips that are
-/// held back by more than both for good, but where cuts meet.
+/// held back by more than both for good, but of several cuts.
 constexpr double worth_an_excuse = 0.02, worth_an_excuse_mm = GuardSearch::least_jump_mm;
-/// Of the depth: cuts that are nearer to each other all but meet.
-constexpr double nearly_meeting = 1. / 3;
 }  // namespace
 
 /// The positions of the blade at which the skin is looked at: even ones of all the skin, and further ones of
@@ -90,7 +88,7 @@ class Wounds::GuardLooks {
         Guard strict = search_.result();
         const auto [opening, taken] = held_back(guard);
         const double allowed = taken + std::max(worth_an_excuse * opening, worth_an_excuse_mm);
-        if (meet() || held_back(strict).taken <= allowed) guard = std::move(strict);
+        if (wounds_.size() > 1 || held_back(strict).taken <= allowed) guard = std::move(strict);
       }
       if (moments) hold_for_moments(guard);
     } else if (moments) {
@@ -125,23 +123,6 @@ class Wounds::GuardLooks {
       guard.name({v[0], 1. / 3 * (mesh_.position(v[0]) + mesh_.position(v[1]) + mesh_.position(v[2])),
                   blade.cut, blade.s, torn});
     }
-  }
-
-  /// Whether cuts cross or meet each other, or nearly do.
-  bool meet() const {
-    for (std::size_t k = 0; k < wounds_.size(); ++k)
-      for (const Incision::ChainVertex& c : wounds_[k].incision->chain())
-        for (std::size_t j = 0; j < wounds_.size(); ++j)
-          if (j != k &&
-              (mesh_.vertex(c.left).cut == wounds_[j].incision->cut() || is_next_to(c.left, wounds_[j])))
-            return true;
-    return false;
-  }
-
-  static bool is_next_to(int vertex, const Wound& cut) {
-    const auto at = cut.volume.locate(vertex);
-    return at && at->s > 0 && at->s < cut.reached() &&
-           std::abs(at->uvw.y) < nearly_meeting * cut.field.shape().cut().depth;
   }
 
   Relief::At relief_at(const Blade& blade) const { return relief_[blade.cut].at(wounds_.part_made(blade)); }

@@ -1,4 +1,4 @@
-#include "params/lip_formulation.h"
+#include "params/parameters/lip_formulation.h"
 
 #include <cmath>
 
