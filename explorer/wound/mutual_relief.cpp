@@ -349,12 +349,14 @@ class AtStations {
     }
   }
 
+  /// What leans by `lean`, so far `from` corners along the cut, mm, with them.
+  static double leaning_as(const CornerLean& corners, double from, double lean) {
+    return std::lerp(lean, from < 0 ? corners.before : corners.after, corners.at(std::abs(from)));
+  }
+
   static void lean_at_mouth(const Mouth& mouth, const CornerLean& corners, Amplitude& cut) {
-    for (std::size_t k = 0; k < cut.stations.size(); ++k) {
-      const double from = cut.stations[k] - mouth.s;
-      cut.leans[k] =
-          std::lerp(cut.leans[k], from < 0 ? corners.before : corners.after, corners.at(std::abs(from)));
-    }
+    for (std::size_t k = 0; k < cut.stations.size(); ++k)
+      cut.leans[k] = leaning_as(corners, cut.stations[k] - mouth.s, cut.leans[k]);
   }
 
   /// Linear from one side of the mouth to the other.
@@ -371,10 +373,9 @@ class AtStations {
   /// Next to a crossing lips lean as its corners do.
   static void lean_by_corners(const Crossing& crossing, const CornerLean& corners, Amplitude& cut) {
     for (std::size_t k = 0; k < cut.stations.size(); ++k) {
-      const double from = cut.stations[k] - crossing.s, away = std::abs(from), there = corners.at(away);
-      const double own = from < 0 ? corners.before : corners.after;
-      cut.leans[k] = std::clamp((1 - there) * cut.leans[k] + there * own, -most_lean, most_lean) *
-                     std::lerp(1., std::min(1., away / crossing.fades), corners.share);
+      const double from = cut.stations[k] - crossing.s;
+      cut.leans[k] = std::clamp(leaning_as(corners, from, cut.leans[k]), -most_lean, most_lean) *
+                     std::lerp(1., std::min(1., std::abs(from) / crossing.fades), corners.share);
     }
   }
 

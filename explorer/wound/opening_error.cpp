@@ -144,7 +144,7 @@ Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, doubl
                                              of_direction * astray(cut, s)),
                      "the path winds"});
     parts.push_back({of_bend_along_tension * (pulled - 1) * std::abs(local.curvature),
-                     "the path bends, and the skin is pulled # times as hard as across it", pulled});
+                     "the path bends, and the skin's larger tension is # times that across it", pulled});
     parts.push_back({of_bend_in_curved_skin * skin * std::abs(local.curvature),
                      "the path bends with a radius of # mm in curved skin", radius});
   } else if (known)

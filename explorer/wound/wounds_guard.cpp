@@ -86,9 +86,7 @@ class Wounds::GuardLooks {
       if (search_.is_excused()) {
         search_.hold_excused();
         Guard strict = search_.result();
-        const auto [opening, taken] = held_back(guard);
-        const double allowed = taken + std::max(worth_an_excuse * opening, worth_an_excuse_mm);
-        if (wounds_.size() > 1 || held_back(strict).taken <= allowed) guard = std::move(strict);
+        if (wounds_.size() > 1 || is_worth(strict, guard)) guard = std::move(strict);
       }
       if (moments) hold_for_moments(guard);
     } else if (moments) {
@@ -288,6 +286,11 @@ class Wounds::GuardLooks {
       most.taken = std::max(most.taken, wounds_[0].scale() * norm(held - open));
     }
     return most;
+  }
+
+  bool is_worth(const Guard& strict, const Guard& excused) const {
+    const auto [opening, taken] = held_back(excused);
+    return held_back(strict).taken <= taken + std::max(worth_an_excuse * opening, worth_an_excuse_mm);
   }
 
   bool is_unsound(int one, const Blade& blade, const Guard& guard) const {

@@ -321,7 +321,7 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
   EXPECT_LT(error(arc(1e-6, 20), pulled_along).largest, 0.03);
   const OpeningError along = error(arc(1. / 20, 20), pulled_along);
   EXPECT_NEAR(along.largest, std::hypot(0.02, 0.55 / 20 * (0.03 / 0.0116 - 1)), 0.005);
-  EXPECT_NE(along.cause.find("pulled 2.6 times as hard as across"), std::string::npos) << along.cause;
+  EXPECT_NE(along.cause.find("larger tension is 2.6 times that across"), std::string::npos) << along.cause;
   const OpeningError bent = error(arc(1. / 20, 20), one);
   EXPECT_GT(bent.largest, 0.2);
   EXPECT_NE(bent.cause.find("bends"), std::string::npos) << bent.cause;

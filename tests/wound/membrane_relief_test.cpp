@@ -133,20 +133,14 @@ TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
 /// A cut that leaves another one in its middle, and one that ends just before it.
 TEST(MembraneRelief, OfACutThatLeavesAnotherIsOpenAtItsStart) {
   const Field field = opening_field(canonical, 60, 60, 6, 3);
-  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
-  const auto cut = [&](const std::vector<Vec3>& path) {
-    auto made = std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{});
-    made->advance_to(made->path().length());
-    return made;
-  };
-  const auto main = cut(line(-15, 0.1, 15, 0.1)), branch = cut(line(0, 0, 0, 16));
-  Field pulled = in_tension(field, {{"skin.prestress_v", 0.03}});
-  std::vector<Wound> made;
-  for (const Incision* one : {main.get(), branch.get()}) made.emplace_back(*one, pulled, 1);
-  ASSERT_TRUE(made[1].leaves(made[0]));
-  EXPECT_FALSE(made[0].leaves(made[1]));
-  const ReplayedWounds wounds(std::move(made));
-  ASSERT_EQ(wounds[1].volume.left(), main.get());
+  const Field pulled = in_tension(field, {{"skin.prestress_v", 0.03}});
+  Made made;
+  std::vector<Wound> opened = made.open(pulled, {line(-15, 0.1, 15, 0.1), line(0, 0, 0, 16)});
+  const Incision *main = made.cuts[0].get(), *branch = made.cuts[1].get();
+  ASSERT_TRUE(opened[1].leaves(opened[0]));
+  EXPECT_FALSE(opened[0].leaves(opened[1]));
+  const ReplayedWounds wounds(std::move(opened));
+  ASSERT_EQ(wounds[1].volume.left(), main);
   std::vector<Vec3> now(wounds.vertex_count());
   wounds.positions(wounds.duration(), now);
   // The lips of the branch are apart at its start as they are a depth from there.
@@ -161,7 +155,7 @@ TEST(MembraneRelief, OfACutThatLeavesAnotherIsOpenAtItsStart) {
   bool first = true;
   for (const auto& c : main->chain()) {
     if (c.s < 10 || c.s > 20) continue;
-    const double along = now[c.left].x - mesh.position(c.left).x, here = mesh.position(c.left).x;
+    const double along = now[c.left].x - made.mesh.position(c.left).x, here = made.mesh.position(c.left).x;
     if (!first) EXPECT_GT(here + along, before);
     before = here + along, first = false;
   }
