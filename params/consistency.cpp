@@ -42,6 +42,7 @@ class ConsistencyCheck {
     check_size();
     check_arc();
     check_shape();
+    if (p_.cut.mirrored) check_mirrored();
     check_elements();
     check_cuts_beside();
     check_room();
@@ -128,6 +129,17 @@ class ConsistencyCheck {
     refuse(p_.cut.radius > 0, p_.cut.radius, "cut.curvature in its place");
     refuse(p_.cut.count > 1, p_.cut.count, "it to 1");
     refuse(p_.cut.branch > 0, p_.cut.branch, "it to 0");
+  }
+
+  /// What has no mirror image among the cases.
+  void check_mirrored() const {
+    const auto refuse = [&](bool present, const auto& member, const std::string& remedy) {
+      this->refuse(present, member, remedy + ", or cut.mirrored to false", "cut.mirrored = true");
+    };
+    refuse(p_.cut.radius > 0, p_.cut.radius, "cut.curvature in its place");
+    refuse(p_.cut.count > 1, p_.cut.count, "it to 1");
+    refuse(p_.cut.branch > 0, p_.cut.branch, "it to 0");
+    refuse(p_.skin.fibre_share > 0, p_.skin.fibre_share, "it to 0");
   }
 
   void check_elements() const {

@@ -16,6 +16,7 @@
 #include "params/encode_limits.h"
 #include "params/hash.h"
 #include "params/parameters/lip_formulation.h"
+#include "params/parameters/mirror_image.h"
 #include "params/sampling/read_sampling.h"
 #include "params/sampling/sampling.h"
 #include "params/sensitivities.h"
@@ -350,6 +351,21 @@ std::vector<Case> in_unit_tensions(const std::vector<Case>& cases) {
   return result;
 }
 
+/// Without the images of earlier cases, where these stand for them.
+std::vector<Case> without_mirror_images(const std::vector<Case>& cases) {
+  std::vector<Case> result;
+  std::set<std::string> images;
+  for (const Case& one : cases) {
+    if (images.contains(one.hash())) continue;
+    result.push_back(one);
+    if (!one.parameters.cut.mirrored) continue;
+    Case image = one;
+    image.parameters = mirror_image(one.parameters);
+    if (image.hash() != one.hash()) images.insert(image.hash());
+  }
+  return result;
+}
+
 }  // namespace
 
 bool tells_formulation(const Study& study) {
@@ -369,6 +385,7 @@ void settle_formulation(const Study& study, Case& one) {
 std::vector<Case> cases_of(const Study& study) {
   std::vector<Case> cases = find_sampling(study.sampling.method, study.name).sample(study);
   for (Case& one : cases) settle_formulation(study, one);
+  cases = without_mirror_images(cases);
   if (study.sampling.unit_tensions) cases = in_unit_tensions(cases);
   Mistakes mistakes;
   std::set<std::string> identities;

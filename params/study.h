@@ -44,14 +44,16 @@ struct Range {
   bool logarithmic = false;  ///< scale = "log": equal steps are equal factors
   /// alone = true: varied from the case's own value, while all others are in their middle.
   bool alone = false;
-  /// shares = NAME: where the other range is at an end this one is in its middle, and the other way round; it
-  /// is empty else.
+  /// shares = NAME: where both this and the other range are varied, each goes half as far from its middle;
+  /// it is empty else.
   std::string shares = {};
   /// with = { ... }: further values of the cases that are varied alone.
   std::vector<std::pair<std::string, Value>> with = {};
   /// alone = "NAME": varied with the others of that name, while all but these are in their middle; else
   /// empty.
   std::string group = {};
+  /// not_with = ["NAME", ...]: other ranges, in whose middle it is varied alone.
+  std::vector<std::string> not_with = {};
 
   /// The value `part` of `whole` steps along it; the ends exactly.
   double at(double part, double whole) const;

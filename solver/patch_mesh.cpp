@@ -149,7 +149,7 @@ class PatchMesher {
   std::array<std::array<Place, 3>, 2> triangles_of_square(int i, int j, int step) const {
     const Place a{i, j}, b{i + step, j}, c{i + step, j + step}, d{i, j + step};
     const auto rows = [&](int line, int first) { return (line - line % lines_ - first) / lines_; };
-    if (diagonal_rises(p_.tissue.formulation, rows(i, grid_.cut_from), rows(j, grid_.planes[0])))
+    if (diagonal_rises(is_nearly_incompressible(p_), rows(i, grid_.cut_from), rows(j, grid_.planes[0])))
       return {{{a, b, c}, {a, c, d}}};
     return {{{a, b, d}, {b, c, d}}};
   }
@@ -191,9 +191,7 @@ class PatchMesher {
 
 }  // namespace
 
-bool diagonal_rises(TissueFormulation formulation, int i, int j) {
-  return (formulation == TissueFormulation::mean_dilatation ? i + j : j) % 2 == 0;
-}
+bool diagonal_rises(bool chess_board, int i, int j) { return (chess_board ? i + j : j) % 2 == 0; }
 
 std::vector<bool> in_faces(const PatchMesh& mesh) {
   std::vector<bool> all(mesh.points.size(), false);

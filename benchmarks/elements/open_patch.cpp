@@ -28,7 +28,7 @@ std::vector<Element> elements_of(const PatchNodes& nodes) {
         using Corner = std::array<int, 2>;
         const Corner a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
         using Triangle = std::array<Corner, 3>;
-        const bool rises = diagonal_rises(TissueFormulation::displacement, i - lines.first, j - lines.plane);
+        const bool rises = diagonal_rises(false, i - lines.first, j - lines.plane);
         for (const Triangle& triangle : rises ? std::array{Triangle{a, b, c}, Triangle{a, c, d}}
                                               : std::array{Triangle{a, b, d}, Triangle{b, c, d}}) {
           std::array<Place, 6> corners;

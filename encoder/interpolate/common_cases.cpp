@@ -12,6 +12,7 @@
 #include "encoder/field/file/study_file.h"
 #include "encoder/field/knot_insertion.h"
 #include "params/parameters/lip_formulation.h"
+#include "params/parameters/mirror_image.h"
 
 namespace cleft {
 
@@ -92,6 +93,33 @@ std::vector<float> floats_of(const std::vector<Vec3>& points) {
   return flat;
 }
 
+/// At the other side of the cut.
+BSplineBasis mirrored(const BSplineBasis& basis) {
+  constexpr double nearly = 1e-9;
+  const std::vector<double>& knots = basis.knots();
+  std::vector<double> turned(knots.rbegin(), knots.rend());
+  bool same = true;
+  for (std::size_t n = 0; n < knots.size(); ++n) {
+    turned[n] = -turned[n];
+    same = same && std::abs(turned[n] - knots[n]) < nearly;
+  }
+  return same ? basis : BSplineBasis(basis.degree(), std::move(turned));
+}
+
+/// Control points on these bases.
+std::vector<float> mirrored(const std::vector<float>& points, const std::array<BSplineBasis, 4>& bases) {
+  const std::size_t across = static_cast<std::size_t>(bases[1].size());
+  const std::size_t row = 3ul * static_cast<std::size_t>(bases[2].size() * bases[3].size());
+  std::vector<float> turned(points.size());
+  for (std::size_t begin = 0; begin < points.size(); begin += across * row)
+    for (std::size_t j = 0; j < across; ++j)
+      for (std::size_t n = 0; n < row; ++n) {
+        const float number = points[begin + j * row + n];
+        turned[begin + (across - 1 - j) * row + n] = n % 3 == 1 ? -number : number;
+      }
+  return turned;
+}
+
 void number_bottom(RecordedParameters& p) {
   const bool bone = p->patch.bottom == PatchBottom::bone;
   p.erase(p.name_of(p->patch.bottom));
@@ -142,6 +170,33 @@ CommonCases::Own CommonCases::own_of(const StudyMember& member) {
 std::vector<CommonCases::Own> CommonCases::own_of(const std::vector<StudyMember>& members) {
   std::vector<Own> all;
   for (const StudyMember& member : members) all.push_back(own_of(member));
+  return all;
+}
+
+CommonCases::Own CommonCases::mirror_image_of(const Own& own) {
+  Own image = own;
+  image.kept.name += ", mirrored";
+  for (RecordedParameters* p : {&image.parameters, &image.kept.parameters})
+    for (const auto& [name, value] : p->numbers())
+      if (changes_sign_in_mirror(name) && value != 0) p->set(name, -value);
+  auto& [left, right] = image.kept.geometry.domain[1];
+  std::swap(left, right);
+  left = -left, right = -right;
+  image.bases[1] = mirrored(own.bases[1]);
+  image.points = mirrored(own.points, own.bases);
+  for (Own::Derivative& one : image.derivatives) {
+    one.points = mirrored(one.points, own.bases);
+    if (changes_sign_in_mirror(one.parameter))
+      for (float& number : one.points) number = -number;
+  }
+  return image;
+}
+
+std::vector<CommonCases::Own> CommonCases::with_mirror_images(std::vector<Own> all) {
+  const std::size_t count = all.size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (const Parameters& p = *all[i].parameters; p.cut.mirrored && mirror_image_tells(p))
+      all.push_back(mirror_image_of(all[i]));
   return all;
 }
 
@@ -232,7 +287,7 @@ CommonCases CommonCases::of_study(const std::string& study, const ReportPart& re
   std::vector<Own> all;
   for_each_member(
       study, [&](const StudyMember& member) { all.push_back(own_of(member)); }, report);
-  return CommonCases(made_alike(std::move(all)));
+  return CommonCases(made_alike(with_mirror_images(std::move(all))));
 }
 
 CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& records) {
@@ -245,7 +300,7 @@ CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& recor
 }
 
 CommonCases::CommonCases(const std::vector<StudyMember>& members)
-    : CommonCases(made_alike(own_of(members))) {}
+    : CommonCases(made_alike(with_mirror_images(own_of(members)))) {}
 
 CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
   parametrization_ = all.front().parametrization;

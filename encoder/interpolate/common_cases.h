@@ -54,12 +54,13 @@ struct CommonDerivative {
 class CommonCases {
  public:
   /// Raises all cases to bases that contain the knots of each. Of cases with equal parameters the one with
-  /// the least error is used. Throws InputError if fewer than two remain, if parametrisations or choices
-  /// differ, or if one cut reaches an edge of the patch that another does not.
+  /// the least error is used. Those of cut.mirrored stand for their mirror images too. Throws InputError if
+  /// fewer than two remain, if parametrisations or choices differ, or if one cut reaches an edge of the patch
+  /// that another does not.
   explicit CommonCases(const std::vector<StudyMember>& members);
   /// The same for a study folder or a study.dffd, of which one field at a time is in memory.
   static CommonCases of_study(const std::string& study, const ReportPart& report = {});
-  /// The same for the records of a study.dffd.
+  /// The same for the records of a study.dffd, without mirror images.
   static CommonCases of_records(const std::vector<const StudyRecord*>& records);
 
   const std::vector<CommonCase>& cases() const { return cases_; }
@@ -89,6 +90,8 @@ class CommonCases {
   static Own own_of(const StudyMember& member);
   static std::vector<Own> own_of(const std::vector<StudyMember>& members);
   static void check_alike(const Own& a, const Own& b);
+  static Own mirror_image_of(const Own& own);
+  static std::vector<Own> with_mirror_images(std::vector<Own> all);
   static std::vector<Own> made_alike(std::vector<Own> all);
   static std::array<BSplineBasis, 4> common_bases(const std::vector<Own>& all);
   static std::vector<bool> distinct(const std::vector<Own>& all);

@@ -66,9 +66,12 @@ std::optional<CodedResidual> residual_between(const StudyInterpolator& interpola
   for (const StudyCase& one : published_study_cases(study, nullptr, &damaged))
     files[one.name] = one.field_file;
   ResidualSum sum;
-  for (int i = 0; i < cases.size(); ++i)
-    if (const auto one = read_residual(files.at(cases.cases()[i].name)); one && weights[i] != 0)
+  for (int i = 0; i < cases.size(); ++i) {
+    const auto file = files.find(cases.cases()[i].name);
+    if (file == files.end()) return std::nullopt;  // a mirror image, whose nodes are others
+    if (const auto one = read_residual(file->second); one && weights[i] != 0)
       if (!sum.add(weights[i], *one)) return std::nullopt;
+  }
   return sum.in_steps();
 }
 

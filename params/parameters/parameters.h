@@ -49,6 +49,7 @@ struct Parameters {
     bool contact = false;
     double radius = 0, curvature = 0, curvature_rate = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
     FrameEvery frames = FrameEvery::column;
+    bool mirrored = false;
   } cut;
   struct Mesh {
     double element_size = 1, grading = 1.3;
@@ -78,6 +79,12 @@ struct Parameters {
     double stiffness = 0.005, side_stiffness = 0.005;
   } foundation;
 };
+
+/// Whether the tissue is nearly incompressible: its elements lock unless the volume of each changes as a
+/// whole, and in the plane except where diagonals alternate like the colours of a chess board.
+inline bool is_nearly_incompressible(const Parameters& p) {
+  return p.tissue.formulation == TissueFormulation::mean_dilatation && p.tissue.poisson_ratio > 0.45;
+}
 
 /// Whether the skin's prestress is a part of the stiffness of the small model.
 inline bool is_stiffened_by_prestress(const Parameters& p) {

@@ -100,6 +100,10 @@ std::vector<Parameter> make_table() {
                    "length of a second cut, from the middle of the first toward +v, made after it; 0: none"),
       choice(CLEFT_MEMBER(cut.frames), {"column", "pair"},
              "a frame for every released column of node pairs, or for every pair"),
+      choice(
+          later(CLEFT_MEMBER(cut.mirrored)), no_or_yes,
+          "true: fields between the cases of a study use the case's mirror image too (v to -v: bends, tilt "
+          "and twist with the other sign), and the study leaves that out"),
       positive(CLEFT_MEMBER(mesh.element_size), "mm",
                "largest edge of an element along u, v and w, at the cut"),
       between(CLEFT_MEMBER(mesh.grading), "", 1, 2,

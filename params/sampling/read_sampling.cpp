@@ -27,7 +27,7 @@ class SamplingReader {
       read_settings(*sampling);
     else
       method_ = &find_sampling(study_.sampling.method, path_);
-    if (vary) read_variations(*vary, ""), check_shares(*vary);
+    if (vary) read_variations(*vary, ""), check_shares(*vary), check_not_with(*vary);
     // Where the first cases are too few, what they tell is worse than an even sequence.
     if (SamplingSettings& s = study_.sampling; s.adapts && !sampling->contains("start"))
       s.count = std::min(s.most, std::max(s.count, cases_of_range * study_.vary.size()));
@@ -262,7 +262,7 @@ class SamplingReader {
 
   Range read_range(const Parameter& parameter, const toml::table& table) {
     const std::string place = where(table), here = place + ": " + parameter.name;
-    check_keys(table, {"from", "to", "count", "scale", "alone", "with", "shares"}, "",
+    check_keys(table, {"from", "to", "count", "scale", "alone", "with", "shares", "not_with"}, "",
                " in the range of " + parameter.name);
     const auto from = table["from"].value<double>(), to = table["to"].value<double>();
     if (!from || !to) throw InputError(here + ": a range is " + range_form());
@@ -282,7 +282,8 @@ class SamplingReader {
             alone,
             read_shares(parameter, table, alone),
             read_with(parameter, table, alone),
-            group};
+            group,
+            read_not_with(parameter, table, alone)};
   }
 
   /// Whether it is varied alone, and the group with which it is.
@@ -312,7 +313,34 @@ class SamplingReader {
     return *name;
   }
 
+  std::vector<std::string> read_not_with(const Parameter& parameter, const toml::table& table,
+                                         bool alone) const {
+    std::vector<std::string> names;
+    const toml::node* node = table.get("not_with");
+    if (!node) return names;
+    const std::string here = where(*node) + ": " + parameter.name + ": not_with";
+    if (!method_ || !method_->levels || alone)
+      throw InputError(here +
+                       ": is for ranges of sampling method \"sparse-grid\" that are not alone; remove it");
+    const toml::array* list = node->as_array();
+    for (std::size_t n = 0; list && n < list->size(); ++n)
+      if (const auto name = list->get(n)->value<std::string>()) names.push_back(*name);
+    if (!list || names.empty() || names.size() != list->size())
+      throw InputError(here + ": must be a list of names of other ranges, [\"NAME\", ...]");
+    return names;
+  }
+
   /// Of all ranges, once all are read.
+  void check_not_with(const toml::table& vary) {
+    for (const Variation& one : study_.vary) {
+      if (!one.range) continue;
+      for (const std::string& name : one.range->not_with)
+        if (name == one.name || std::ranges::find(study_.vary, name, &Variation::name) == study_.vary.end())
+          mistakes_.add(where(vary.contains(one.name) ? *vary.get(one.name) : vary) + ": " + one.name +
+                        ": not_with = [\"" + name + "\"]: must name other ranges under [vary]");
+    }
+  }
+
   void check_shares(const toml::table& vary) {
     for (const Variation& one : study_.vary) {
       if (!one.range || one.range->shares.empty()) continue;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -34,23 +35,31 @@ bool are_allowed(const std::vector<int>& levels, const std::vector<Variation>& r
   return alone == 0 || raised == 1 || of_one_group;
 }
 
+/// Whether ranges that have no pairs with one another are raised together.
+bool are_kept_apart(const std::vector<int>& levels, const std::vector<Variation>& ranges) {
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    for (std::size_t other = 0; other < levels.size(); ++other)
+      if (levels[k] > 0 && levels[other] > 0 &&
+          std::ranges::find(ranges[k].range->not_with, ranges[other].name) != ranges[k].range->not_with.end())
+        return true;
+  return false;
+}
+
 double number_of(const Case& one, const Variation& variation) {
   return std::get<double>(get_parameter(one.parameters, *find_parameter(variation.name)));
 }
 
-/// The parts of the ranges at a node of each. Two that share, a square of nodes, are turned into the diamond
-/// that fits into it.
+/// The parts of the ranges at a node of each. Where two that share are both raised, each goes half as far
+/// from its middle: within the diamond of their ends.
 std::vector<double> parts_of(const std::vector<Variation>& ranges,
                              const std::vector<std::vector<double>>& nodes,
-                             const std::vector<std::size_t>& at) {
+                             const std::vector<std::size_t>& at, const std::vector<int>& levels) {
   std::vector<double> parts;
   for (std::size_t k = 0; k < ranges.size(); ++k) parts.push_back(nodes[k][at[k]]);
   for (std::size_t k = 0; k < ranges.size(); ++k)
     for (std::size_t other = 0; other < ranges.size(); ++other)
-      if (ranges[other].name == ranges[k].range->shares) {
-        const double a = nodes[other][at[other]], b = nodes[k][at[k]];
-        parts[other] = (a + b) / 2, parts[k] = (1 + a - b) / 2;
-      }
+      if (ranges[other].name == ranges[k].range->shares && levels[k] > 0 && levels[other] > 0)
+        for (const std::size_t one : {k, other}) parts[one] = (parts[one] + 0.5) / 2;
   return parts;
 }
 
@@ -72,14 +81,14 @@ void for_each_sum(std::vector<int>& levels, std::size_t from, int total, const U
 /// the ends of each, level 2 adds two points between on each and the ends of all pairs. Polynomials of as
 /// high a total degree as the level are exact between them. A higher level keeps the cases of the lower ones.
 /// What is varied alone has the nodes of one range, and pairs within its group; the middle is the case's own
-/// value.
+/// value. Ranges that are not varied with others have no pairs with these.
 std::vector<Case> sample_sparse_grid(const Study& study) {
   const std::vector<Variation> ranges = ranges_by_name(study);
   std::vector<Case> cases;
   std::vector<int> levels(ranges.size());
   for (int total = 0; total <= study.sampling.level; ++total)
     for_each_sum(levels, 0, total, [&] {
-      if (!are_allowed(levels, ranges)) return;
+      if (!are_allowed(levels, ranges) || are_kept_apart(levels, ranges)) return;
       std::vector<std::vector<double>> nodes;
       nodes.reserve(levels.size());
       for (const int level : levels) nodes.push_back(added_nodes(level));
@@ -87,7 +96,7 @@ std::vector<Case> sample_sparse_grid(const Study& study) {
       for (bool more = true; more;) {
         Case one(study.base);
         bool again = false;  // what is varied alone has its own value at a node
-        const std::vector<double> parts = parts_of(ranges, nodes, at);
+        const std::vector<double> parts = parts_of(ranges, nodes, at, levels);
         for (std::size_t k = 0; k < ranges.size(); ++k) {
           const Range& range = *ranges[k].range;
           if (levels[k] == 0 && range.alone) continue;

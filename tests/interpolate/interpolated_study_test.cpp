@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
 #include "tests/interpolate/held_out.h"
+#include "tests/interpolate/made_study.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
 
@@ -61,8 +62,10 @@ class InterpolatedStudy : public testing::Test {
     solve("stiff", "\"tissue.young_modulus\" = [0.005, 0.02, 0.08]\n",
           "sensitivities = [\"tissue.young_modulus\"]\n");
     solve("stiff_held", "\"tissue.young_modulus\" = [0.007, 0.012, 0.03, 0.055]\n");
-    solve("bends", "\"cut.curvature\" = [-0.12, -0.06, 0, 0.06, 0.12]\n");
+    const std::string bends = "\"cut.curvature\" = [-0.12, -0.06, 0, 0.06, 0.12]\n";
+    solve("bends", bends);
     solve("bends_held", "\"cut.curvature\" = [-0.09, 0.036]\n");
+    solve("mirrored", bends + R"("cut.mirrored" = ["true", "true", "true", "true", "true"])");
   }
   static void TearDownTestSuite() { delete place_; }
 
@@ -133,6 +136,22 @@ TEST_F(InterpolatedStudy, CutsThatBendOtherwiseOpenAsSimulated) {
     }
     EXPECT_LT(off, 0.02 * largest) << curvature;
     EXPECT_GT(off_another, 0.05 * largest) << curvature;
+  }
+}
+
+TEST_F(InterpolatedStudy, MirrorImagesStandForCasesThatWereNotSolved) {
+  const auto members = read_members(folder("mirrored"));
+  EXPECT_EQ(members.size(), 3u) << "of five, two of which are images";
+  double quantum = 0;  // fits of mirror images differ by the rounding of their unknowns
+  for (const auto& [name, field] : members)
+    quantum = std::max(quantum, field.quantum / field.report.largest_displacement);
+  const StudyInterpolator halved(folder("mirrored")), whole(folder("bends"));
+  EXPECT_EQ(halved.cases().size(), whole.cases().size());
+  for (const double curvature : {-0.12, -0.09, 0.036, 0.06, 0.12}) {
+    const auto at = [](const StudyInterpolator& study, double k) { return study.at({{"cut.curvature", k}}); };
+    const Field expected = at(whole, curvature);
+    EXPECT_LT(distance_of(at(halved, curvature), expected), 2 * quantum) << curvature;
+    EXPECT_GT(distance_of(at(halved, -curvature), expected), 8 * quantum) << curvature;
   }
 }
 

@@ -248,6 +248,46 @@ TEST(StudyInterpolator, MeshesThatRoundTheCutStandForTheCutTheyHave) {
   EXPECT_LT(distance_of(field, made_field(values_at(0.4, 0.5, 0.6))), 0.02);
 }
 
+TEST(CommonCases, MirrorImagesHaveTheOtherSignAcrossAndSoDoDerivativesByTilt) {
+  std::vector<StudyMember> members;
+  for (const double tilt : {0., 20.}) {
+    Field field = with_derivative(made_field({{"cut.depth", 2 + tilt / 10}}), "cut.depth");
+    ParameterDerivative by_tilt = field.by_parameter[0];
+    by_tilt.parameter = "cut.tilt";
+    field.by_parameter.push_back(by_tilt);
+    field.parameters.set("cut.tilt", tilt), field.parameters.set("cut.mirrored", "true");
+    members.push_back({"tilt" + std::to_string(static_cast<int>(tilt)), field});
+  }
+  const CommonCases cases(members);
+  ASSERT_EQ(cases.size(), 3);  // the upright one is its own image
+  const CommonCase &own = cases.cases()[1], &image = cases.cases()[2];
+  EXPECT_EQ(image.parameters.number("cut.tilt"), -20);
+  EXPECT_EQ(image.parameters.number("cut.depth"), own.parameters.number("cut.depth"));
+  const auto compare = [&](std::span<const float> points, std::span<const float> mirrored, double sign) {
+    const Field a = cases.field_of(points_of(points), own.geometry),
+                b = cases.field_of(points_of(mirrored), image.geometry);
+    double most = 0;
+    for (const Place& at : all_kinds_of_places(a)) {
+      const Side other = at.side == Side::left ? Side::right : at.side == Side::right ? Side::left : at.side;
+      const Vec3 x = a.displacement(at.uvw, at.side, at.t),
+                 y = b.displacement({at.uvw.x, -at.uvw.y, at.uvw.z}, other, at.t);
+      EXPECT_LT(norm(sign * Vec3{x.x, -x.y, x.z} - y), 1e-6);
+      most = std::max(most, norm(x));
+    }
+    EXPECT_GT(most, 0.01);
+  };
+  compare(cases.control_points(1), cases.control_points(2), 1);
+  int compared = 0;
+  for (std::size_t d = 0; d < cases.derivatives().size(); ++d)
+    for (std::size_t e = 0; e < cases.derivatives().size(); ++e) {
+      const CommonDerivative &one = cases.derivatives()[d], &two = cases.derivatives()[e];
+      if (one.of != 1 || two.of != 2 || one.parameter != two.parameter) continue;
+      compare(cases.derivative_points(d), cases.derivative_points(e), one.parameter == "cut.tilt" ? -1 : 1);
+      ++compared;
+    }
+  EXPECT_EQ(compared, 2);
+}
+
 TEST(StudyInterpolator, WrongParametersAreNamed) {
   const StudyInterpolator study(CommonCases(made_study(three_varied(4))));
   const auto with = [&](const std::string& name, double value) {

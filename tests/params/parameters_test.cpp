@@ -112,6 +112,13 @@ TEST(Parameters, TheCutsShapeMustFitThePatchAndItsMesh) {
     EXPECT_EQ(verdict(allowed), "") << allowed;
 }
 
+TEST(Parameters, WhatHasNoMirrorImageAmongTheCasesDoesNotStandForIt) {
+  EXPECT_EQ(verdict("cut.mirrored=true cut.tilt=20"), "");
+  for (const std::string set : {"cut.radius=20", "cut.count=2", "cut.branch=5", "skin.fibre_share=0.5"})
+    EXPECT_NE(verdict("cut.mirrored=true " + set).find("not with cut.mirrored = true"), std::string::npos)
+        << set << ": " << verdict("cut.mirrored=true " + set);
+}
+
 TEST(Parameters, TheNodesOfAGradedMeshAreCounted) {
   // A cut of 2 x 1 mm in elements of 0.01 mm. Uniform: 6000 x 4000 x 800 elements. Grown by 1.1: along u
   // 200 + 2 * ln(1 + 0.1 * 2900) / ln(1.1) = 319, along v 2 * ln(1 + 0.1 * 2000) / ln(1.1) = 111,

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/error.h"
@@ -297,6 +299,53 @@ TEST(Sampling, AGroupThatIsVariedAloneHasPairsOfItsOwn) {
   EXPECT_EQ(pairs, 4);
 }
 
+TEST(Sampling, RangesThatAreKeptApartHaveNoPair) {
+  const std::string
+      three =
+          "[vary]\n'cut.curvature' = { from = -0.02, to = 0.02 }\n'cut.depth' = { from = 2, to = 4 }\n"
+          "'skin.curvature_uv' = { from = -0.01, to = 0.01",
+      end = " }\n[sampling]\nmethod = 'sparse-grid'\nlevel = 2\n";
+  const auto all = cases_of_text(three + end),
+             apart = cases_of_text(three + ", not_with = ['cut.curvature']" + end);
+  EXPECT_EQ(apart.size() + 4, all.size());
+  std::size_t with_depth = 0;
+  for (const Case& one : apart) {
+    const Parameters& p = one.parameters;
+    EXPECT_TRUE(p.cut.curvature == 0 || p.skin.curvature_uv == 0);
+    with_depth += p.cut.depth != 3 && p.skin.curvature_uv != 0;
+  }
+  EXPECT_EQ(with_depth, 4u);
+  for (const std::string wrong : {"'cut.tilt'", "'skin.curvature_uv'"})
+    expect_message(three + ", not_with = [" + wrong + "]" + end, {"not_with = [", "must name other ranges"});
+  for (const std::string wrong : {"[]", "'cut.depth'", "[1]"})
+    expect_message(three + ", not_with = " + wrong + end,
+                   {"line 4: skin.curvature_uv: not_with: must be a list"});
+  expect_message(three + ", alone = true, not_with = ['cut.depth']" + end, {"that are not alone; remove it"});
+}
+
+TEST(Sampling, OfACaseAndItsMirrorImageOneIsSolved) {
+  const std::string vary =
+      "[vary]\n'cut.curvature' = { from = -0.02, to = 0.02 }\n'cut.depth' = { from = 2, to = 4 }\n"
+      "'cut.tilt' = { from = -45, to = 45 }\n'skin.curvature_uv' = { from = -0.01, to = 0.01, alone = true "
+      "}\n"
+      "[sampling]\nmethod = 'sparse-grid'\nlevel = 2\n";
+  const auto shape = [](const Case& one, double sign) {
+    const Parameters& p = one.parameters;
+    return std::array{sign * p.cut.curvature, sign * p.cut.tilt, sign * p.skin.curvature_uv, p.cut.depth};
+  };
+  std::map<std::array<double, 4>, int> solved;
+  const auto some = cases_of_text("[case]\ncut.mirrored = 'true'\n" + vary), all = cases_of_text(vary);
+  for (const Case& one : some) ++solved[shape(one, 1)];
+  std::size_t own_images = 0;
+  for (const Case& one : all) {
+    const bool own = shape(one, 1) == shape(one, -1);
+    EXPECT_EQ(solved[shape(one, 1)] + (own ? 0 : solved[shape(one, -1)]), 1);
+    own_images += own;
+  }
+  EXPECT_EQ(own_images, 1 + 4u) << "those of another depth alone";
+  EXPECT_EQ(2 * some.size(), all.size() + own_images);
+}
+
 TEST(Sampling, WhatIsVariedAloneStartsFromItsOwnValueAndHasNoPairs) {
   const auto cases = cases_of_text(
       "[case]\npatch.height = 9\n[vary]\n'cut.depth' = { from = 2, to = 4 }\n"
@@ -351,6 +400,17 @@ TEST(Sampling, RangesThatShareAreADiamond) {
   for (const auto& place : {std::pair{0.06, 0.}, {-0.06, 0.}, {0., 0.004}, {0., -0.004}, {0.03, 0.002}})
     EXPECT_TRUE(places.contains(place)) << place.first << ", " << place.second;
   EXPECT_EQ(places.size(), 13u);
+  const auto with_depth = cases_of_text(
+      "[vary]\n'cut.curvature' = { from = -0.06, to = 0.06 }\n'cut.depth' = { from = 2, to = 4 }\n"
+      "'cut.curvature_rate' = { from = -0.004, to = 0.004, shares = 'cut.curvature' }\n"
+      "[sampling]\nmethod = 'sparse-grid'\nlevel = 2\n");
+  EXPECT_EQ(std::ranges::count_if(with_depth,
+                                  [](const Case& one) {
+                                    const auto& cut = one.parameters.cut;
+                                    return cut.depth == 2 && std::abs(cut.curvature) == 0.06;
+                                  }),
+            2)
+      << "pairs with others are of whole ranges";
   const std::string end = " }\n[sampling]\nmethod = 'sparse-grid'\nlevel = 1\n";
   expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, shares = 'cut.tilt'" + end,
                  {"line 2: cut.depth: shares = \"cut.tilt\": must name another range"});

@@ -42,7 +42,7 @@ PatchMesh box_mesh(TissueFormulation formulation, const std::vector<double>& u, 
   for (int j = 0; j + 1 < nv; ++j)
     for (int i = 0; i + 1 < nu; ++i) {
       const int a = j * nu + i, b = a + 1, c = b + nu, d = a + nu;
-      if (diagonal_rises(formulation, i, j))
+      if (diagonal_rises(formulation == TissueFormulation::mean_dilatation, i, j))
         add_column({a, b, c}), add_column({a, c, d});
       else
         add_column({a, b, d}), add_column({b, c, d});
