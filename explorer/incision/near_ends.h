@@ -17,10 +17,10 @@ struct JoinedEnd {
 };
 
 /// Paths of one mesh, whose ends have been moved on, the way that they go, over other paths that they end
-/// just before: a T, in place of a bridge of skin that is next to nothing.
+/// just before, or on: a T, in place of a bridge of skin that is next to nothing.
 struct JoinedPaths {
   std::vector<ScalpelPath> paths;
-  std::vector<JoinedEnd> ends;
+  std::vector<JoinedEnd> ends;  ///< that were not on them
 };
 
 /// `near`: the widest bridge, in the paths' units, as the gap in the result.

@@ -33,7 +33,7 @@ struct Opening {
 Opening opening_of(const Wound& cut, double s, double blade, const Amplitude& in_membrane) {
   const CanonicalCut& canonical = cut.field.shape().cut();
   const auto [u, time_offset] = cut.volume.canonical(s, cut.complete());
-  const double t = std::clamp(blade + time_offset, 0., canonical.length);
+  const double t = std::clamp(cut.volume.opened_to()(blade) + time_offset, 0., canonical.length);
   Opening result;
   result.frame = cut.volume.skin_frame(s / cut.scale());
   result.beyond = std::min(s, blade - s);
@@ -58,13 +58,19 @@ double CornerLean::at(double away) const { return share * std::exp(-away / reach
 
 namespace {
 
-/// `left`: the other cut does not cross this one, but leaves it to one side.
-CornerLean lean_at(const Crossing& crossing, bool left, const std::vector<const Wound*>& cuts, double blade,
+/// `straight_side`: of this cut, where the other one does not cross it, but opens into it from the other side
+/// (-1: v < 0, 1: v > 0); 0: it crosses. `at_end`: with its end.
+CornerLean lean_at(const Crossing& crossing, double straight_side, bool at_end,
+                   const std::vector<const Wound*>& cuts, double blade,
                    const std::vector<Amplitude>& in_membrane) {
+  const auto blade_in = [&](std::size_t k) { return k + 1 < cuts.size() ? cuts[k]->complete() : blade; };
   const auto opening = [&](std::size_t k, double s) {
-    return opening_of(*cuts[k], s, k + 1 < cuts.size() ? cuts[k]->complete() : blade, in_membrane[k]);
+    return opening_of(*cuts[k], s, blade_in(k), in_membrane[k]);
   };
-  const Opening own = opening(crossing.cut, crossing.s), other = opening(crossing.other, crossing.other_s);
+  const Opening own = opening(crossing.cut, crossing.s);
+  Opening other = opening(crossing.other, crossing.other_s);
+  if (at_end)  // its corners are free when it runs on
+    other.beyond = cuts[crossing.other]->volume.opened_to().beyond(blade_in(crossing.other));
   const double depth =
       std::min(depth_at(*cuts[crossing.cut], crossing.s), depth_at(*cuts[crossing.other], crossing.other_s));
   CornerLean result{0, 0, std::clamp(std::min(own.beyond, other.beyond) / (freed * depth), 0., 1.),
@@ -82,7 +88,7 @@ CornerLean lean_at(const Crossing& crossing, bool left, const std::vector<const 
   const double straight_lip = (of_right_angle - with_cosine) * own_half.y();
   // Of the piece before (-1) or behind (1) the other cut, and at v < 0 (-1) or v > 0 (1).
   const auto height = [&](double behind, double side) {
-    if (left && side * crossing.toward > 0) return straight_lip;
+    if (side == straight_side) return straight_lip;
     const Vector along(behind, 0), other_edge = side * other_ray,
                                    drawn_back = side * own_half + behind * other_half;
     const double cosine = along.dot(other_edge);
@@ -97,15 +103,18 @@ CornerLean lean_at(const Crossing& crossing, bool left, const std::vector<const 
 
 CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
                             const std::vector<Amplitude>& in_membrane) {
-  return lean_at(crossing, false, cuts, blade, in_membrane);
+  return lean_at(crossing, 0, false, cuts, blade, in_membrane);
 }
 
-CornerLean lean_where_left(std::size_t cut, double s, std::size_t later,
-                           const std::vector<const Wound*>& cuts, double blade,
-                           const std::vector<Amplitude>& in_membrane) {
-  const IncisionVolume& volume = cuts[later]->volume;
-  const Crossing crossing{cut, later, s, volume.opens_on(), 0, volume.leaves_to_right() ? -1. : 1.};
-  return lean_at(crossing, true, cuts, blade, in_membrane);
+CornerLean lean_at_mouth(std::size_t cut, double s, std::size_t later, bool at_end,
+                         const std::vector<const Wound*>& cuts, double blade,
+                         const std::vector<Amplitude>& in_membrane) {
+  const IncisionVolume::Mouth& mouth = *cuts[later]->volume.mouth(at_end);
+  const double from_right = mouth.right ? 1 : -1;
+  const Crossing crossing{cut, later,
+                          s,   at_end ? mouth.s - mouth.opens_on : mouth.opens_on,
+                          0,   at_end ? from_right : -from_right};
+  return lean_at(crossing, -from_right, at_end, cuts, blade, in_membrane);
 }
 
 }  // namespace cleft

@@ -21,9 +21,10 @@ struct CornerLean {
 CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
                             const std::vector<Amplitude>& in_membrane);
 
-/// Likewise where cut `later` leaves `cut` at s mm of its path: two corners against a straight lip.
-CornerLean lean_where_left(std::size_t cut, double s, std::size_t later,
-                           const std::vector<const Wound*>& cuts, double blade,
-                           const std::vector<Amplitude>& in_membrane);
+/// Likewise where cut `later` opens into `cut` at s mm of its path, with its start or its end: two corners
+/// against a straight lip.
+CornerLean lean_at_mouth(std::size_t cut, double s, std::size_t later, bool at_end,
+                         const std::vector<const Wound*>& cuts, double blade,
+                         const std::vector<Amplitude>& in_membrane);
 
 }  // namespace cleft

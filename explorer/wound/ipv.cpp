@@ -34,15 +34,19 @@ constexpr double least_mean = 1e-3;
 /// taken of on each side.
 constexpr double directions_a_mean = 8, most_directions = 4096;
 constexpr int mean_samples = 8;
-/// Depths of a cut that leaves another: so far from there it opens as in its field; nearer, as there.
+/// Depths of a cut that begins or ends in another: so far from its start it opens as in its field; nearer, as
+/// there; and so far beyond its end.
 constexpr double opens_on_depths = 1;
-/// And so near to there it begins.
-constexpr double start_depths = 0.1;
+/// And so near to there it begins, or ends.
+constexpr double end_depths = 0.1;
 /// The weight of a station's own normal where it is the only one within reach.
 constexpr double own_normal = 1e-9;
 
 /// How far beside the patch, mm, displacements fall to nothing.
 double margin_of(const Field& field) { return (field.domain(1).back - field.domain(1).front) * margin; }
+
+/// Of a complete cut, mesh units.
+double length_of(const Incision& cut) { return cut.extended_to() > 0 ? cut.tip() : cut.path().length(); }
 
 }  // namespace
 
@@ -87,17 +91,40 @@ void IncisionVolume::opened_by(const VaryingField& field) {
   room_ = WoundRoom(incision_, field, scale_);
 }
 
-void IncisionVolume::leaves(const Incision& earlier) {
-  const double opens_on = std::min(opens_on_depths * field_.cut().depth, field_.cut().length / 2);
-  const Vec3 inside = incision_.path().at(std::min(opens_on / scale_, incision_.path().length())).position;
-  mouth_ = Mouth{&earlier, opens_on, earlier.path().coordinates(inside).v > 0};
+/// Cuts that are shorter than deep open on in proportion: as half of one that is twice as long.
+void IncisionVolume::opens_into(const Incision& earlier, bool at_end) {
+  const double length = incision_.path().length();
+  double opens_on = std::min(
+      {opens_on_depths * field_.cut().depth, field_.cut().length / 2, scale_ * length_of(earlier) / 2});
+  if (!(incision_.extended_to() > 0)) opens_on = std::min(opens_on, scale_ * length);
+  const double way = std::min(opens_on / scale_, length);
+  const auto beside = [&](double s) { return earlier.path().coordinates(incision_.path().at(s).position).v; };
+  double end = at_end ? length : 0, inside = at_end ? length - way : way;
+  const bool right = beside(inside) > 0;
+  constexpr int halvings = 40;
+  if ((beside(end) > 0) != right)
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = (end + inside) / 2;
+      ((beside(middle) > 0) == right ? inside : end) = middle;
+    }
+  mouths_[at_end] = Mouth{&earlier, end * scale_, opens_on, right};
+}
+
+/// Whether the cut is complete, and the mesh has a bridge of skin where it should have come to the other one.
+bool IncisionVolume::stops_before_mouth() const {
+  if (!mouths_[1] || incision_.is_short_of_end()) return false;
+  const auto& chain = incision_.chain();
+  const double from = (mouths_[1]->s - end_depths * field_.cut().depth) / scale_;
+  for (auto c = chain.rbegin(); c != chain.rend() && c->s >= from; ++c)
+    if (incision_.mesh().vertex(c->left).cut == mouths_[1]->earlier->cut()) return false;
+  return true;
 }
 
 double IncisionVolume::Mouth::part(const Vec3& place, Side beside, double scale) const {
   const ScalpelPath& path = earlier->path();
   const PathCoordinates at = path.coordinates(place);
-  const double length = earlier->extended_to() > 0 ? earlier->tip() : path.length(),
-               v = beside == Side::both ? at.v : 0, inside = std::min(at.s, length - at.s);
+  const double length = length_of(*earlier), v = beside == Side::both ? at.v : 0,
+               inside = std::min(at.s, length - at.s);
   const bool to_right = beside == Side::both ? v > 0 : beside == Side::right;
   const double from_end = std::hypot(v, inside);
   // As the lips of a crack, which come together around its ends.
@@ -107,12 +134,21 @@ double IncisionVolume::Mouth::part(const Vec3& place, Side beside, double scale)
 }
 
 CanonicalPlace IncisionVolume::canonical(const Place& at) const {
-  CanonicalPlace place = canonical_place(at.s * scale_, incision_.path().length() * scale_, field_.cut());
-  if (!mouth_) return place;
-  const double s = at.s * scale_, part = mouth_->part(at.place, at.beside, scale_),
-               here = part * std::max(0., mouth_->opens_on - s),
-               beyond = (1 - part) * std::max(0., mouth_->opens_on + s);
-  return {place.u + here - beyond, place.time_offset + here};
+  const double s = at.s * scale_, length = incision_.path().length() * scale_;
+  CanonicalPlace place =
+      canonical_place(s, mouths_[1] ? mouths_[1]->s + mouths_[1]->opens_on : length, field_.cut());
+  if (const auto& start = mouths_[0]) {
+    const double part = start->part(at.place, at.beside[0], scale_),
+                 here = part * std::max(0., start->opens_on - s),
+                 beyond = (1 - part) * std::max(0., start->opens_on + s);
+    place.u += here - beyond, place.time_offset += here;
+  }
+  if (const auto& end = mouths_[1]) {
+    const double part = end->part(at.place, at.beside[1], scale_), here = part * std::max(0., s - end->s),
+                 beyond = (1 - part) * std::max(0., end->opens_on + end->s - s);
+    place.u += beyond - here, place.time_offset -= (1 - part) * end->opens_on;
+  }
+  return place;
 }
 
 double IncisionVolume::part_held_back(double s, Side side) const {
@@ -255,24 +291,34 @@ Side IncisionVolume::side_on_skin(int v, double straight) const {
   return side == Side::both ? side_of(straight) : side;
 }
 
-/// Where a cut leaves another one, the place at which it begins is on the lip beyond, which stays whole.
-Side IncisionVolume::beside_start(const CutMesh::Vertex& vertex) const {
-  if (!mouth_ || side_of(vertex.kind) != Side::both || vertex.s * scale_ > start_depths * field_.cut().depth)
-    return Side::both;
-  return mouth_->right ? Side::left : Side::right;
+/// Where a cut begins in another one, or ends in it, that place of it is on the lip beyond, which stays
+/// whole.
+std::array<Side, 2> IncisionVolume::beside_ends(const CutMesh::Vertex& vertex) const {
+  std::array<Side, 2> beside{Side::both, Side::both};
+  if (side_of(vertex.kind) != Side::both) return beside;
+  for (const bool at_end : {false, true}) {
+    const double away = at_end ? incision_.path().length() - vertex.s : vertex.s;
+    if (mouths_[at_end] && away * scale_ <= end_depths * field_.cut().depth)
+      beside[at_end] = mouths_[at_end]->right ? Side::left : Side::right;
+  }
+  return beside;
 }
 
 std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const CutMesh::Vertex& vertex = incision_.mesh().vertex(v);
   if (vertex.cut == incision_.cut())  // lips, walls and closed ends know where they are
     return Place{vertex.position,      vertex.s, 0, -vertex.depth_fraction * field_.cut().depth,
-                 side_of(vertex.kind), true,     0, beside_start(vertex)};
+                 side_of(vertex.kind), true,     0, beside_ends(vertex)};
   const Surroundings::Label& label = labels_[v];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(vertex.position);
   const double straight = std::abs(at.v) <= rounding * incision_.path().length() ? 0 : at.v;
   const auto [wound, on_wall] = side_of_wound(v);
   const Side side = wound == Side::both ? side_on_skin(v, straight) : wound;
+  std::array<Side, 2> beside{Side::both, Side::both};
+  for (const bool at_end : {false, true})
+    if (mouths_[at_end] && vertex.cut == mouths_[at_end]->earlier->cut())
+      beside[at_end] = side_of(vertex.kind);
   return Place{vertex.position,
                incision_.path().steady_place(vertex.position, at),
                Surroundings::across(straight, label.detour, side),
@@ -280,7 +326,7 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
                side,
                on_wall,
                straight,
-               mouth_ && vertex.cut == mouth_->earlier->cut() ? side_of(vertex.kind) : Side::both};
+               beside};
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
@@ -289,7 +335,7 @@ std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, double depth, int nearest,
-                                                         Side side, Side beside) const {
+                                                         Side side, std::array<Side, 2> beside) const {
   const Surroundings::Label& label = labels_[nearest];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(place);
@@ -320,7 +366,8 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
   const double lift = lift_of_tilted_blade(at.s, std::abs(v));
   return ActiveVertex{
       vertex,        {u_in, v_in, at.w}, at.side,           frame.along, frame.across + lift * frame.outward,
-      frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut};
+      frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut,
+      opened_to()};
 }
 
 /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two

@@ -25,6 +25,16 @@
 
 namespace cleft {
 
+/// How far a cut has opened with the blade at a place of it, mm: so far; one that ends in the wound of an
+/// earlier one runs on beyond its end when the blade arrives there.
+struct OpenedTo {
+  double end = 0, runs_on = 0;            ///< where it comes to the other; how far beyond
+  static constexpr double arrives = 0.1;  ///< of that: the last of the blade's way, in which it does
+  double begins() const { return end - arrives * runs_on; }
+  double beyond(double blade) const { return std::clamp((blade - end) / arrives + runs_on, 0., runs_on); }
+  double operator()(double blade) const { return runs_on > 0 ? std::min(blade, end) + beyond(blade) : blade; }
+};
+
 struct ActiveVertex {
   int vertex = 0;
   Vec3 uvw;                     ///< canonical, mm, inside the field's patch
@@ -35,11 +45,14 @@ struct ActiveVertex {
   double weight =
       1;  ///< 1 in the patch, falling to 0 over a quarter of its width outside it, and inside bends
   bool on_cut = false;  ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
+  OpenedTo opened_to = {};
 
-  /// With the blade at `blade`, mm: the side, and the time of a field of a cut so long.
-  Side side_at(double blade) const { return on_cut && s >= blade ? Side::both : side; }
+  /// With the blade at `blade`, mm: whether it has passed, the side, and the time of a field of a cut so
+  /// long.
+  bool is_passed(double blade) const { return s < opened_to(blade); }
+  Side side_at(double blade) const { return on_cut && !is_passed(blade) ? Side::both : side; }
   double time_at(double blade, double cut_length) const {
-    return std::clamp(blade + time_offset, 0., cut_length);
+    return std::clamp(opened_to(blade) + time_offset, 0., cut_length);
   }
   /// A canonical displacement here, weighted, in the directions of the mesh's space; in the same unit.
   Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
@@ -57,15 +70,28 @@ class IncisionVolume {
   /// family's tells the directions of frames.
   void opened_by(const VaryingField& field);
 
-  /// The cut begins in the wound of an earlier one, which must outlive it: next to there it opens on.
-  void leaves(const Incision& earlier);
-  const Incision* left() const { return mouth_ ? mouth_->earlier : nullptr; }  ///< none: it leaves none
-
-  bool leaves_to_right() const { return mouth_ && mouth_->right; }   ///< to v > 0 of that one
-  double opens_on() const { return mouth_ ? mouth_->opens_on : 0; }  ///< mm: so far as there
+  /// Where the cut opens into the wound of an earlier one.
+  struct Mouth {
+    const Incision* earlier;
+    double s;         ///< mm along the path, where it comes to that one
+    double opens_on;  ///< mm: from there, so far as there; at its end, so far beyond
+    bool right;       ///< the cut lies at v > 0 of the earlier one
+    /// 1 in the skin of this side, 0 beyond the other cut, and between around its ends.
+    double part(const Vec3& place, Side beside, double scale) const;
+  };
+  /// The cut begins, or ends, in the wound of an earlier one, which must outlive it: next to there it opens
+  /// on.
+  void opens_into(const Incision& earlier, bool at_end);
+  const std::optional<Mouth>& mouth(bool at_end) const { return mouths_[at_end]; }
+  double opens_on(bool at_end) const { return mouths_[at_end] ? mouths_[at_end]->opens_on : 0; }
   /// The place on the canonical cut of s mm of the path, of `length` mm, on a lip.
   CanonicalPlace canonical(double s, double length) const {
-    return canonical_place(s, length, field_.cut(), opens_on());
+    const double opens_to = mouths_[1] ? mouths_[1]->s + mouths_[1]->opens_on : length;
+    return canonical_place(s, opens_to, field_.cut(), opens_on(false));
+  }
+  OpenedTo opened_to() const {
+    if (!mouths_[1] || stops_before_mouth()) return {};
+    return {mouths_[1]->s, mouths_[1]->opens_on};
   }
 
   /// Must be called after each change of the mesh with the vertices of changed triangles and new vertices,
@@ -80,9 +106,9 @@ class IncisionVolume {
 
   /// The coordinates of a place `depth` mm below the skin, where `nearest` is the nearest vertex of the skin.
   /// `side`: the side of the cut's surface for a place on it; elsewhere `both`. Its `vertex` is -1.
-  /// Likewise `beside`, of the cut that it leaves.
+  /// Likewise `beside`, of the cuts that it begins and ends in.
   std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side,
-                                           Side beside = Side::both) const;
+                                           std::array<Side, 2> beside = {Side::both, Side::both}) const;
 
   /// The part of the field's displacement that a lip does not take at s of the path, because the path bends
   /// or comes back, or the skin folds, too near to it.
@@ -100,11 +126,12 @@ class IncisionVolume {
     double s, across, w;  // s and across in mesh units, w in mm
     Side side;
     bool on_cut;
-    double straight;  // distance from the path, mesh units, on the side of v
-    Side beside;      // if it is on the surface of the cut that this one leaves
+    double straight;             // distance from the path, mesh units, on the side of v
+    std::array<Side, 2> beside;  // if it is on the surface of a cut that this one begins or ends in
   };
   std::optional<Place> place_of(int vertex) const;
-  Side beside_start(const CutMesh::Vertex& vertex) const;
+  bool stops_before_mouth() const;
+  std::array<Side, 2> beside_ends(const CutMesh::Vertex& vertex) const;
   std::optional<ActiveVertex> activate(int vertex, const Place& at) const;
   struct WoundSide {
     Side side;
@@ -126,16 +153,8 @@ class IncisionVolume {
   std::optional<VaryingField> family_;       // displaces along its own directions, and lifts a tilted blade
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
   WoundRoom room_;
-  /// Where the cut leaves another one.
-  struct Mouth {
-    const Incision* earlier;
-    double opens_on;  // mm from there
-    bool right;       // the side of the earlier one on which the cut lies
-    /// 1 in the skin of this side, 0 beyond the other cut, and between around its ends.
-    double part(const Vec3& place, Side beside, double scale) const;
-  };
-  std::optional<Mouth> mouth_;
-  std::vector<Vec3> along_;      // T at even distances along the path, means
+  std::array<std::optional<Mouth>, 2> mouths_;  // at its start and its end
+  std::vector<Vec3> along_;                     // T at even distances along the path, means
   std::vector<double> tilt_;     // there, of the blade against the skin's normal, radians, means
   std::vector<double> station_;  // s of the surroundings' stations
   std::vector<Vec3> normal_;     // of the skin there, a mean

@@ -195,7 +195,7 @@ std::vector<int> LiveReplay::entered() const {
 void LiveReplay::displacements(double s, std::vector<std::pair<int, Vec3>>& out) const {
   std::vector<Vec3> moved(rest_.size());
   for (const Batch& batch : batches_) {
-    batch.pieces.positions(s, rest_.data(), moved.data());
+    batch.pieces.positions(volume_.opened_to()(s), rest_.data(), moved.data());
     for (const int v : batch.pieces.vertices())
       if (v > 0)
         out.emplace_back(v - 1, moved[static_cast<std::size_t>(v)] - rest_[static_cast<std::size_t>(v)]);
@@ -205,9 +205,9 @@ void LiveReplay::displacements(double s, std::vector<std::pair<int, Vec3>>& out)
 void LiveReplay::move_to(double s) {
   touched_.clear();
   const double before = blade_;
-  blade_ = s;
+  blade_ = volume_.opened_to()(s);
   for (const Batch& batch : batches_) {
-    const auto [front, back] = batch.pieces.positions(before, s, rest_.data(), position_.data());
+    const auto [front, back] = batch.pieces.positions(before, blade_, rest_.data(), position_.data());
     for (std::size_t i = front; i < back; ++i)
       if (const int v = batch.pieces.vertices()[i]; v > 0) touched_.push_back(v - 1);
   }

@@ -43,7 +43,8 @@ class LiveReplay {
   /// That of one of them; displacements() may round it otherwise.
   Vec3 displacement(int vertex, double s) const {
     const Slot& slot = slots_[static_cast<std::size_t>(vertex) + 1];
-    return batches_[slot.batch].pieces.displacement(static_cast<std::size_t>(slot.index), s);
+    return batches_[slot.batch].pieces.displacement(static_cast<std::size_t>(slot.index),
+                                                    volume_.opened_to()(s));
   }
 
   /// The place of a vertex that has entered.
@@ -103,7 +104,7 @@ class LiveReplay {
   const Wound& wound_;
   const Incision& incision_;
   IncisionVolume& volume_;
-  double blade_ = 0, extended_to_ = 0;
+  double blade_ = 0, extended_to_ = 0;  // as far as the cut has opened
   std::size_t most_entering_;
   bool undone_ = false;
   Contractor contractor_;

@@ -27,7 +27,7 @@ constexpr double touching = 0.25, shortest_piece = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
 /// where it opens little alone, the field cannot open it otherwise.
 constexpr double most_of_touching = 1.1;
-/// Of a piece: so near to where another cut leaves it, it opens as in the piece's middle.
+/// Of a piece: so near to where another cut opens into it, it opens as in the piece's middle.
 constexpr double next_to_mouth = 0.01;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
@@ -76,7 +76,7 @@ struct Cut {
   };
   std::vector<Piece> pieces;
   std::vector<double> corners;  // mm along the path
-  std::vector<double> mouths;   // likewise, of cuts that leave it
+  std::vector<double> mouths;   // likewise, of cuts that open into it
 
   /// `touched`: where pieces end.
   Cut(const Wound& wound, std::vector<double> touched) {
@@ -85,11 +85,15 @@ struct Cut {
     const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
     std::sort(touched.begin(), touched.end());
     touched.push_back(length);
-    const bool leaves = wound.volume.left() && touched.front() < shortest_piece * piece;
-    corners.push_back(leaves ? touched.front() : 0);  // what is beyond the cut that it leaves opens nothing
+    // What is beyond cuts that it begins and ends in opens nothing.
+    const bool begins = wound.volume.mouth(false) && touched.front() < shortest_piece * piece;
+    corners.push_back(begins ? touched.front() : 0);
+    if (wound.volume.mouth(true) && touched.size() > 1 &&
+        length - touched[touched.size() - 2] < shortest_piece * piece)
+      touched.pop_back();
     for (const double to : touched) {
       const double from = corners.back();
-      const bool last = to == length;
+      const bool last = to == touched.back();
       if (to - from < shortest_piece * piece || (!last && length - to < shortest_piece * piece)) continue;
       const int count = std::max(1, static_cast<int>(std::lround((to - from) / piece)));
       for (int i = 1; i <= count; ++i) corners.push_back(std::lerp(from, to, double(i) / count));
@@ -111,6 +115,18 @@ struct Cut {
       result.pieces.insert(result.pieces.begin(),
                            {next.begin + back, next.begin + 0.5 * back, next.begin, next.frame});
       result.corners.insert(result.corners.begin(), result.corners.front() - piece);
+    }
+    return result;
+  }
+
+  /// The same, run on by `way` mm beyond its end, straight, in `count` pieces.
+  Cut run_on(int count, double way) const {
+    Cut result = *this;
+    for (int i = 0; i < count; ++i) {
+      const Piece& last = result.pieces.back();
+      const Vec3 on = way / count * last.frame.along;
+      result.pieces.push_back({last.end, last.end + 0.5 * on, last.end + on, last.frame});
+      result.corners.push_back(result.corners.back() + way / count);
     }
     return result;
   }
@@ -158,42 +174,50 @@ Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
   return result;
 }
 
-/// How a cut that leaves another one opens alone, as its field shows it: next to there, as so far from the
-/// start of one that has begun before.
+/// How a cut that begins or ends in another one opens alone, as its field shows it: next to its start, as so
+/// far from the start of one that has begun before; and as one that has run on beyond its end.
 class ShownAlone {
  public:
-  ShownAlone() = default;  ///< of a cut that leaves none
-  ShownAlone(const CutMembrane& membrane, const Wound& wound, const Cut& cut) {
-    opens_on_ = wound.volume.opens_on();
-    if (!(opens_on_ > 0)) return;
+  ShownAlone(const CutMembrane& membrane, const Wound& wound, const Cut& cut)
+      : opens_on_(wound.volume.opens_on(false)) {
+    const double runs_on = wound.volume.opens_on(true);
+    if (!(std::max(opens_on_, runs_on) > 0)) return;
     piece_ = cut.corners[1] - cut.corners[0];
-    before_ = std::max(1, static_cast<int>(std::lround(opens_on_ / piece_ - 0.5)));
-    const Cut longer = cut.begun_before(before_);
+    const double last_piece = cut.corners.back() - cut.corners[cut.corners.size() - 2];
+    if (opens_on_ > 0) before_ = std::max(1, static_cast<int>(std::lround(opens_on_ / piece_ - 0.5)));
+    if (runs_on > 0) after_ = std::max(1, static_cast<int>(std::lround(runs_on / last_piece)));
+    const Cut longer = cut.begun_before(before_).run_on(after_, runs_on);
     taken_ = taken(membrane, longer, longer);
     const Eigen::VectorXd tractions = tractions_on(wound, cut);
     tractions_.resize(longer.rows());
     for (int i = 0; i < before_; ++i) tractions_.segment<2>(2 * i) = tractions.head<2>();
-    tractions_.tail(tractions.size()) = tractions;
+    tractions_.segment(2 * before_, tractions.size()) = tractions;
+    for (int i = 0; i < after_; ++i) tractions_.tail(2 * (after_ - i)).head<2>() = tractions.tail<2>();
   }
 
   /// Of the pieces that are open.
-  void in(Eigen::VectorXd& alone) const {
+  void in(Eigen::VectorXd& alone, bool has_run_on) const {
     const auto open = static_cast<int>(alone.size() / 2);
+    const int after = has_run_on ? after_ : 0;
+    if (after > 0) alone = opened(before_, open + after).head(alone.size());
     for (int i = 0; i < open && i < before_; ++i) {
-      const int pieces = before_ - i + open;
-      const Eigen::VectorXd opened = taken_.block(2 * i, 2 * i, 2 * pieces, 2 * pieces)
-                                         .partialPivLu()
-                                         .solve(tractions_.segment(2 * i, 2 * pieces));
+      const int pieces = before_ - i + open + after;
       const double length = pieces * piece_, middle = (before_ + 0.5) * piece_,
                    there = std::min(opens_on_, length - piece_ / 2);
-      alone.segment<2>(2 * i) =
-          std::sqrt(there * (length - there) / (middle * (length - middle))) * opened.segment<2>(2 * before_);
+      alone.segment<2>(2 * i) = std::sqrt(there * (length - there) / (middle * (length - middle))) *
+                                opened(i, pieces).segment<2>(2 * before_);
     }
   }
 
  private:
+  Eigen::VectorXd opened(int first, int pieces) const {
+    return taken_.block(2 * first, 2 * first, 2 * pieces, 2 * pieces)
+        .partialPivLu()
+        .solve(tractions_.segment(2 * first, 2 * pieces));
+  }
+
   double opens_on_ = 0, piece_ = 0;  // mm
-  int before_ = 0;                   // pieces
+  int before_ = 0, after_ = 0;       // pieces
   Eigen::MatrixXd taken_;
   Eigen::VectorXd tractions_;
 };
@@ -210,7 +234,7 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
     result.values.push_back(value);
     result.shifts.push_back(opens ? (opened(i) - value * alone(i)) / alone(i + 1) : 0);
   }
-  // Ahead of the blade as at its tip. The skin between two cuts that leave it moves along it as a whole.
+  // Ahead of the blade as at its tip. The skin between two cuts that open into it moves along it as a whole.
   result.values.resize(cut.pieces.size(), result.values.empty() ? ahead : result.values.back());
   result.shifts.resize(cut.pieces.size(), result.shifts.empty() ? 0 : result.shifts.back());
   for (const double mouth : cut.mouths) {
@@ -242,10 +266,12 @@ class Together {
         if (!at.empty()) touch[i][i] = touch[i][j] = touch[j][i] = true;
       }
       touch_.push_back(touch[i][i]);
-      leaves_.push_back(wounds[i]->volume.left() != nullptr);
+      begins_.push_back(wounds[i]->volume.mouth(false).has_value());
+      ends_.push_back(wounds[i]->volume.mouth(true).has_value());
       cuts_.emplace_back(*wounds[i], std::move(touched));
       for (std::size_t j = i + 1; j < count; ++j)
-        if (const auto at = wounds[i]->left_at(*wounds[j])) cuts_.back().mouths.push_back(*at);
+        for (const bool at_end : {false, true})
+          if (const auto at = wounds[i]->mouth_of(*wounds[j], at_end)) cuts_.back().mouths.push_back(*at);
       first.push_back(first.back() + cuts_.back().rows());
     }
     const Eigen::Index complete = first[cuts_.size() - 1], last = cuts_.back().rows();
@@ -264,9 +290,10 @@ class Together {
         alone_.push_back(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
                              .partialPivLu()
                              .solve(tractions.segment(first[i], cuts_[i].rows())));
-        shown_[i].in(alone_.back());
+        shown_[i].in(alone_.back(), true);
       }
     }
+    opened_to_ = wounds.back()->volume.opened_to();
     last_alone_ = all.bottomRightCorner(last, last), last_tractions_ = tractions.tail(last);
     const auto factor = all.topLeftCorner(complete, complete).partialPivLu();
     by_last_ = factor.solve(all.topRightCorner(complete, last));
@@ -280,21 +307,34 @@ class Together {
     const std::vector<double>& corners = cuts_.back().corners;
     const auto next = std::upper_bound(corners.begin(), corners.end(), blade);
     const auto before = std::max<Eigen::Index>(0, next - corners.begin() - 1);
-    std::vector<Amplitude> result = when_cut(before);
+    const double on = opened_to_.beyond(blade), part_on = on > 0 ? on / opened_to_.runs_on : 0;
+    std::vector<Amplitude> result = when_cut(before, part_on);
     if (next == corners.begin() || next == corners.end()) return result;
-    const double part = (blade - next[-1]) / (next[0] - next[-1]);
-    const std::vector<Amplitude> after = when_cut(before + 1);
-    for (std::size_t k = 0; k < result.size(); ++k)
-      for (std::size_t i = 0; i < result[k].values.size(); ++i) {
-        result[k].values[i] += part * (after[k].values[i] - result[k].values[i]);
-        result[k].shifts[i] += part * (after[k].shifts[i] - result[k].shifts[i]);
-      }
+    go_to(when_cut(before + 1, part_on), (blade - next[-1]) / (next[0] - next[-1]), result);
     return result;
   }
 
  private:
-  /// With so many pieces of the last cut open.
-  std::vector<Amplitude> when_cut(Eigen::Index pieces) const {
+  static void go_to(const std::vector<Amplitude>& to, double part, std::vector<Amplitude>& from) {
+    for (std::size_t k = 0; k < from.size(); ++k)
+      for (std::size_t i = 0; i < from[k].values.size(); ++i) {
+        from[k].values[i] += part * (to[k].values[i] - from[k].values[i]);
+        from[k].shifts[i] += part * (to[k].shifts[i] - from[k].shifts[i]);
+      }
+  }
+
+  /// With so many pieces of the last cut open, which has run on in part.
+  std::vector<Amplitude> when_cut(Eigen::Index pieces, double part_on) const {
+    std::vector<Amplitude> result = when_cut(pieces, part_on > 0);
+    if (0 < part_on && part_on < 1) {
+      std::vector<Amplitude> before = when_cut(pieces, false);
+      go_to(result, part_on, before);
+      return before;
+    }
+    return result;
+  }
+
+  std::vector<Amplitude> when_cut(Eigen::Index pieces, bool has_run_on) const {
     const Eigen::Index rows = 2 * pieces;
     const Eigen::VectorXd opened =
         left_.topLeftCorner(rows, rows).partialPivLu().solve(left_tractions_.head(rows));
@@ -307,21 +347,23 @@ class Together {
     }
     Eigen::VectorXd alone =
         last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows));
-    shown_.back().in(alone);
-    result.push_back(over_alone(cuts_.back(), opened, alone, leaves_.back() ? 0 : 1));
+    shown_.back().in(alone, has_run_on);
+    result.push_back(over_alone(cuts_.back(), opened, alone, begins_.back() ? 0 : 1));
     for (std::size_t k = 0; k < result.size(); ++k) {
       if (!touch_[k]) continue;
-      // Where a cut leaves another one it has no end.
-      const double from = leaves_[k] ? cuts_[k].corners.back() / 2 : 0;
+      // Where a cut opens into another one it has no end.
+      const double length = cuts_[k].corners.back(), from = begins_[k] ? length / 2 : 0,
+                   to = ends_[k] && (k + 1 < result.size() || has_run_on) ? length / 2 : length;
       for (std::size_t i = 0; i < result[k].values.size(); ++i)
-        if (result[k].stations[i] >= from)
+        if (from <= result[k].stations[i] && result[k].stations[i] <= to)
           result[k].values[i] = std::min(result[k].values[i], most_of_touching);
     }
     return result;
   }
 
   std::vector<Cut> cuts_;
-  std::vector<bool> touch_, leaves_;  // others
+  std::vector<bool> touch_, begins_, ends_;  // others, and in others
+  OpenedTo opened_to_;                       // of the last one
   std::vector<ShownAlone> shown_;
   std::vector<Eigen::VectorXd> alone_;  // of the complete ones
   Eigen::MatrixXd last_alone_, left_;   // of the last one, alone and with what the complete ones leave of it

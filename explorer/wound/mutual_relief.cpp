@@ -1,7 +1,9 @@
 #include "explorer/wound/mutual_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -39,8 +41,8 @@ const double gauss = 1 / std::numbers::sqrt3;
 /// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross. Of that, so
 /// far from the crossing along a cut its corners are, and ends what keeps them from parting.
 constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
-/// Depths to either side of where another cut leaves this one, over which what its field does not move of the
-/// lips is linear: the lip beyond is whole there.
+/// Depths to either side of where another cut opens into this one, over which what its field does not move of
+/// the lips is linear: the lip beyond is whole there.
 constexpr double mouth_reach = 0.5;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
@@ -49,7 +51,7 @@ constexpr double turned_away = 0.1;
 /// the shear of the tissue tells it, with which the sides of the cut turn up and down.
 double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, double blade) {
   const CanonicalCut& cut = other.field.shape().cut();
-  const double t = std::clamp(blade + at.time_offset, 0., cut.length);
+  const double t = at.time_at(blade, cut.length);
   double a = dot(n, at.along), b = dot(n, normalized(at.across));
   const double length = std::hypot(a, b);
   if (length < turned_away) return 0;
@@ -78,7 +80,8 @@ double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, d
 double opening_at(double s, const Wound& wound) {
   const double length = wound.complete();
   const auto [u, time_offset] = wound.volume.canonical(s, length);
-  const double t = std::clamp(length + time_offset, 0., wound.field.shape().cut().length);
+  const double t =
+      std::clamp(wound.volume.opened_to()(length) + time_offset, 0., wound.field.shape().cut().length);
   return wound.field.displacement({u, 0, 0}, Side::right, t, s).y -
          wound.field.displacement({u, 0, 0}, Side::left, t, s).y;
 }
@@ -87,9 +90,10 @@ double opening_at(double s, const Wound& wound) {
 /// toward the ends of a cut over its depth alone.
 double leaning_at(double s, const Wound& wound, double opening) {
   const CanonicalCut& cut = wound.field.shape().cut();
-  const double length = wound.complete(),
-               from_end = wound.volume.left() ? length - s : std::min(s, length - s);
   if (!(opening > 0)) return 0;
+  double from_end = std::numeric_limits<double>::infinity();
+  if (!wound.volume.mouth(false)) from_end = s;
+  if (!wound.volume.mouth(true)) from_end = std::min(from_end, wound.complete() - s);
   return leaning / opening * std::sqrt(std::clamp(from_end / (leans_fully * cut.depth), 0., 1.));
 }
 
@@ -186,7 +190,7 @@ class AtStations {
           if (j == i) continue;
           const std::optional<ActiveVertex> at = cuts[j]->volume.locate(lips->first);
           if (!at) continue;
-          if (cuts[j]->volume.left() == cut.incision && opening > 0)
+          if (opens_into(*cuts[j], cut) && opening > 0)
             if (const auto right = cuts[j]->volume.locate(lips->second))
               parted_.push_back({i, j, station, at->s, opening, *at, *right});
           const bool complete = j + 1 < cuts.size();
@@ -195,16 +199,18 @@ class AtStations {
                              normal});
         }
       }
-      const double beside = mouth_reach * cut.field.shape().cut().depth;
-      for (std::size_t j = 0; j < cuts.size(); ++j) {
-        const std::optional<double> mouth = cut.left_at(*cuts[j]);
-        if (!mouth) continue;
-        const auto first = std::ranges::lower_bound(own.stations, *mouth - beside),
-                   last = std::ranges::upper_bound(own.stations, *mouth + beside);
-        if (first != own.stations.begin() && last != own.stations.end())
-          mouths_.push_back({i, j, *mouth, static_cast<std::size_t>(first - own.stations.begin()) - 1,
-                             static_cast<std::size_t>(last - own.stations.begin())});
-      }
+      for (std::size_t j = 0; j < cuts.size(); ++j)
+        for (const bool at_end : {false, true}) {
+          const std::optional<double> mouth = cut.mouth_of(*cuts[j], at_end);
+          if (!mouth) continue;
+          const double beside = beside_mouth(cut, *mouth);
+          const auto first = std::ranges::lower_bound(own.stations, *mouth - beside),
+                     last = std::ranges::upper_bound(own.stations, *mouth + beside);
+          if (first != own.stations.begin() && last != own.stations.end())
+            mouths_.push_back({i, j, at_end, *mouth,
+                               static_cast<std::size_t>(first - own.stations.begin()) - 1,
+                               static_cast<std::size_t>(last - own.stations.begin())});
+        }
       own.values.assign(own.stations.size(), 1);
       own.leans = own.shifts = std::vector<double>(own.stations.size(), 0);
     }
@@ -222,8 +228,8 @@ class AtStations {
       parted.push_back(corners.share);
     }
     for (const Mouth& mouth : mouths_)
-      lean_at_mouth(mouth, lean_where_left(mouth.cut, mouth.s, mouth.by, cuts_, blade, in_membrane),
-                    result[mouth.cut]);
+      lean_beside(mouth, lean_at_mouth(mouth.cut, mouth.s, mouth.by, mouth.at_end, cuts_, blade, in_membrane),
+                  result[mouth.cut]);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
         const Amplitude& other = by_branches[i];
@@ -248,7 +254,7 @@ class AtStations {
     Vec3 normal;  // across the own path
   };
 
-  /// Lips of a cut in the volume of another one that leaves it, and moves them differently.
+  /// Lips of a cut in the volume of another one that opens into it, and moves them differently.
   struct Parted {
     std::size_t cut, by, station;
     double s;        // mm, along the other's path
@@ -256,26 +262,39 @@ class AtStations {
     ActiveVertex left, right;
   };
 
-  /// Stations of a cut, between which another one leaves it.
+  /// Stations of a cut, between which another one opens into it.
   struct Mouth {
     std::size_t cut, by;
-    double s;  // mm
+    bool at_end;  // of the other one
+    double s;     // mm
     std::size_t first, last;
   };
 
+  static bool opens_into(const Wound& later, const Wound& cut) {
+    return std::ranges::any_of(std::array{false, true}, [&](bool at_end) {
+      const auto& mouth = later.volume.mouth(at_end);
+      return mouth && mouth->earlier == cut.incision;
+    });
+  }
+
+  /// mm of a cut to either side of where another one opens into it.
+  static double beside_mouth(const Wound& cut, double s) {
+    return std::min({mouth_reach * cut.field.shape().cut().depth, s / 2, (cut.complete() - s) / 2});
+  }
+
   using Lips = std::pair<int, int>;
   /// The lips of a cut's chain, and places without: where lips change the side to which they lean, and where
-  /// another cut leaves it.
+  /// another cut opens into it.
   std::vector<std::pair<double, std::optional<Lips>>> stations_of(std::size_t cut) const {
     std::vector<std::pair<double, std::optional<Lips>>> result;
     std::vector<double> mouths;
     for (const Wound* later : cuts_)
-      if (const auto at = cuts_[cut]->left_at(*later)) mouths.push_back(*at);
-    const double beside_mouth = mouth_reach * cuts_[cut]->field.shape().cut().depth;
+      for (const bool at_end : {false, true})
+        if (const auto at = cuts_[cut]->mouth_of(*later, at_end)) mouths.push_back(*at);
     for (const Incision::ChainVertex& c : cuts_[cut]->incision->chain()) {
       const double s = c.s * cuts_[cut]->scale();
-      const bool at_mouth =
-          std::ranges::any_of(mouths, [&](double mouth) { return std::abs(s - mouth) < beside_mouth; });
+      const bool at_mouth = std::ranges::any_of(
+          mouths, [&](double mouth) { return std::abs(s - mouth) < beside_mouth(*cuts_[cut], mouth); });
       result.emplace_back(s, at_mouth ? std::nullopt : std::optional<Lips>({c.left, c.right}));
     }
     // Its ends have lips.
@@ -315,7 +334,7 @@ class AtStations {
     }
   }
 
-  /// How far those that leave a cut part its lips themselves, as parts of its own displacement across.
+  /// How far those that open into a cut part its lips themselves, as parts of its own displacement across.
   std::vector<Amplitude> moved_by_branches(double blade, const std::vector<Amplitude>& in_membrane) const {
     std::vector<Amplitude> result = alone_;
     for (Amplitude& one : result) std::ranges::fill(one.values, 0);
@@ -354,7 +373,7 @@ class AtStations {
     return std::lerp(lean, from < 0 ? corners.before : corners.after, corners.at(std::abs(from)));
   }
 
-  static void lean_at_mouth(const Mouth& mouth, const CornerLean& corners, Amplitude& cut) {
+  static void lean_beside(const Mouth& mouth, const CornerLean& corners, Amplitude& cut) {
     for (std::size_t k = 0; k < cut.stations.size(); ++k)
       cut.leans[k] = leaning_as(corners, cut.stations[k] - mouth.s, cut.leans[k]);
   }
@@ -423,6 +442,9 @@ Relief relief_while_cut(const std::vector<const Wound*>& cuts) {
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
     for (const double s : touched_at(*cuts.back(), *cuts[k]))
       if (s < end) parts.push_back(s / end);
+  // Where it runs on into another one.
+  const OpenedTo opened_to = cuts.back()->volume.opened_to();
+  if (const double arrives = opened_to.begins(); 0 < arrives && arrives < end) parts.push_back(arrives / end);
   std::ranges::sort(parts);
   const auto same = [](double a, double b) { return b - a < least_step; };
   parts.erase(std::unique(parts.begin(), parts.end(), same), parts.end());

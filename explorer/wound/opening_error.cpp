@@ -38,8 +38,8 @@ constexpr double of_nearest = 0.08;                          // of one that is n
 /// Where it meets a cut and the tension does not turn. Otherwise where the cut that it meets is pulled alike
 /// along and across; up to a third as hard along as across none, from 13/9 on 5/3 of it.
 constexpr double of_junction = 0.6, of_junction_turned = 0.3, pulled_enough = 1. / 3, most_pulled = 5. / 3;
-/// Likewise of a cut that it leaves, where it opens on.
-constexpr double of_left = 0.08;
+/// Likewise of a cut that it opens into.
+constexpr double of_mouth = 0.08;
 constexpr double of_winding = 0.6;    // mm: times the curvature's difference from that which opens it
 constexpr double of_direction = 0.1;  // a radian: between the path and the direction that opens it
 constexpr double of_loop = 3.3;       // of these two, where the path ends so near to its start, in depths:
@@ -106,10 +106,10 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
   const auto pulled = [](double tension) {
     return std::min(most_pulled, (tension - pulled_enough) / (1 - pulled_enough));
   };
-  if (known && n.left_tension > pulled_enough)
-    parts.push_back({of_left * pulled(n.left_tension),
-                     "it leaves another cut, along which the skin is pulled # times as hard as across it",
-                     n.left_tension});
+  if (known && n.mouth_tension > pulled_enough)
+    parts.push_back({of_mouth * pulled(n.mouth_tension),
+                     "it opens into another cut, along which the skin is pulled # times as hard as across it",
+                     n.mouth_tension});
   if (n.junction_tension > 0 && !known)
     parts.push_back({of_junction, "it meets another cut, and the tension does not turn with it"});
   else if (n.junction_tension > pulled_enough)

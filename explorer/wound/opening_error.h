@@ -26,8 +26,8 @@ struct Neighbourhood {
   /// Where it meets another cut, but crosses none in a tension that turns: the ratio of the tension along
   /// that cut to the tension across it, above 0; 0 if it meets none.
   double junction_tension = 0;
-  /// Likewise of a cut that it leaves, where it opens on; not in junction_tension in a tension that turns.
-  double left_tension = 0;
+  /// Likewise of a cut that it opens into; not in junction_tension in a tension that turns.
+  double mouth_tension = 0;
   double length_defect = 0;  ///< excess of an endless cut's opening over the field's, relative to it
   double field =
       0;  ///< error that the field states of its opening, over that opening: of a fit or between cases

@@ -34,9 +34,10 @@ Replay::Replay(const Wound& wound, double detail) : Replay(wound, Contractor(wou
 Replay::Replay(const Wound& wound, const Contractor& contractor)
     : path_length_(wound.incision->path().length() * wound.scale()),
       scale_(wound.scale()),
+      opened_to_(wound.volume.opened_to()),
       rest_(rest_of(wound.incision->mesh())),
       active_(sorted(wound.volume.active())),
-      pieces_(contractor.contract(active_, 0, path_length_)) {}
+      pieces_(contractor.contract(active_, 0, opened_to_(path_length_))) {}
 
 Replay Replay::of(const std::vector<std::size_t>& chosen) const {
   Replay few(*this, pieces_.of(chosen));
@@ -48,7 +49,7 @@ Replay Replay::of(const std::vector<std::size_t>& chosen) const {
 void Replay::positions(double s, std::span<Vec3> out) const {
   CLEFT_CHECK(out.size(), ==, rest_->size());
   std::copy(rest_->begin(), rest_->end(), out.begin());
-  pieces_.positions(s, rest_->data(), out.data());
+  pieces_.positions(opened_to_(s), rest_->data(), out.data());
 }
 
 }  // namespace cleft

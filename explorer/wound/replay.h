@@ -25,11 +25,11 @@ class Replay {
   void positions(double s, std::span<Vec3> out) const;
   /// The same of active vertices only, bit for bit.
   void active_positions(double s, std::span<Vec3> out) const {
-    pieces_.positions(s, rest_->data(), out.data());
+    pieces_.positions(opened_to_(s), rest_->data(), out.data());
   }
 
   /// The displacement of active()[i] alone, mesh units; positions() may round it otherwise.
-  Vec3 displacement(std::size_t i, double s) const { return pieces_.displacement(i, s); }
+  Vec3 displacement(std::size_t i, double s) const { return pieces_.displacement(i, opened_to_(s)); }
 
   double path_length() const { return path_length_; }  ///< mm
   std::size_t vertex_count() const { return rest_->size(); }
@@ -45,9 +45,14 @@ class Replay {
  private:
   Replay(const Wound& wound, const Contractor& contractor);
   Replay(const Replay& whole, ReplayPieces few)
-      : path_length_(whole.path_length_), scale_(whole.scale_), rest_(whole.rest_), pieces_(std::move(few)) {}
+      : path_length_(whole.path_length_),
+        scale_(whole.scale_),
+        opened_to_(whole.opened_to_),
+        rest_(whole.rest_),
+        pieces_(std::move(few)) {}
 
   double path_length_, scale_;
+  OpenedTo opened_to_;
   std::shared_ptr<const std::vector<Vec3>> rest_;
   std::vector<ActiveVertex> active_;  // in the order of their time offsets
   std::size_t left_out_ = 0;

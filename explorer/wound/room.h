@@ -41,7 +41,7 @@ class NearestPlace {
 };
 
 /// The place on the canonical cut of the place s of a path of length `length` (all mm). `opens_on`: of a cut
-/// that leaves another one, which is open at its start; nearer to it than that it opens as there.
+/// that begins in another one, which is open at its start; nearer to it than that it opens as there.
 struct CanonicalPlace {
   double u, time_offset;
 };

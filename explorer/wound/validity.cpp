@@ -134,7 +134,7 @@ struct Junction {
   double tension;   ///< along the other over across it
   double sine;      ///< of the angle between the two
   double from_end;  ///< mm: of the own path, to its nearer end
-  bool is_left;     ///< the own cut begins in the other one, and opens on there (IncisionVolume::leaves)
+  bool opens_on;    ///< the own cut begins or ends in the other one (IncisionVolume::opens_into)
 
   /// Where it crosses the other, all four corners open as the cuts themselves do (corner_lean.h).
   bool is_crossing(double depth) const { return from_end > depth / 2; }
@@ -149,11 +149,12 @@ std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::s
       if (j == i || vertex.cut != cuts[j]->incision->cut()) continue;
       const double s = vertex.s * cuts[j]->scale();
       const double across = cuts[j]->field.prestress(&Prestress::vv, s);
+      const auto& mouth = cuts[i]->volume.mouth(c.s > own.path().length() / 2);
       const Vec3 along = cuts[j]->incision->path().at(vertex.s).along;
       found.push_back({j, across > 0 ? cuts[j]->field.prestress(&Prestress::uu, s) / across : infinity,
                        norm(cross(along, own.path().at(c.s).along)),
                        std::min(c.s, own.path().length() - c.s) * cuts[i]->scale(),
-                       cuts[i]->volume.left() == cuts[j]->incision && c.s < own.path().length() / 2});
+                       mouth && mouth->earlier == cuts[j]->incision});
     }
   }
   return found;
@@ -214,11 +215,11 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
         nearest_beside = std::min(nearest_beside, apart);
     }
-    double judged = 0, left = 0;
+    double judged = 0, mouth = 0;
     for (const Junction& x : junctions[i]) {
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
       if (!x.is_crossing(field.cut().depth)) {
-        double& most = x.is_left ? left : judged;
+        double& most = x.opens_on ? mouth : judged;
         most = std::max(most, x.tension);
       }
     }
@@ -228,7 +229,7 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     const double own = turned || !(widest > 0) ? 0 : error_of_gape(field).value_or(0) / widest;
     v.expected_error =
         opening_error_of(*cuts[i], known,
-                         {nearest_beside, known ? judged : v.junction_tension.value_or(0), left,
+                         {nearest_beside, known ? judged : v.junction_tension.value_or(0), mouth,
                           v.length_defect, own, field.interpolation.has_value(), against_first,
                           widest > 0 ? std::max(v.held_back, lips_guarded[i]) / widest : 0});
     const bool several = cuts.size() > 1;

@@ -47,23 +47,27 @@ struct Wound {
   /// has stopped short of that.
   double felt() const { return incision->is_short_of_end() ? reached() : complete(); }
 
-  /// Whether the cut begins in the wound of an earlier one, and leads away from it.
-  bool leaves(const Wound& earlier) const {
+  /// Whether the cut begins in the wound of an earlier one, and leads away from it; or ends there. Where a
+  /// path ends that is found as the blade goes is not known before.
+  bool opens_into(const Wound& earlier, bool at_end) const {
     constexpr double on_wound = 0.1, rounding = 1e-3, least_sine = 0.3;  // depths of the cut
+    if (at_end && incision->extended_to() > 0) return false;
     const ScalpelPath &own = incision->path(), &other = earlier.incision->path();
-    const double depth = field.shape().cut().depth / scale();
-    const PathCoordinates start = other.coordinates(own.at(0).position),
-                          inside = other.coordinates(own.at(std::min(depth, own.length())).position);
-    const double beyond = inside.v > 0 ? -start.v : start.v;
-    return start.s > 0 && start.s * earlier.scale() < earlier.complete() && std::abs(start.w) < depth &&
+    const double depth = field.shape().cut().depth / scale(), way = std::min(depth, own.length());
+    const PathCoordinates end = other.coordinates(own.at(at_end ? own.length() : 0).position),
+                          inside = other.coordinates(own.at(at_end ? own.length() - way : way).position);
+    const double beyond = inside.v > 0 ? -end.v : end.v;
+    return end.s > 0 && end.s * earlier.scale() < earlier.complete() && std::abs(end.w) < depth &&
            -rounding * depth < beyond && beyond < on_wound * depth &&
-           std::abs(inside.v - start.v) > least_sine * std::min(depth, own.length());
+           std::abs(inside.v - end.v) > least_sine * way;
   }
 
-  /// Where a later cut leaves this one, mm along the path; none: it does not.
-  std::optional<double> left_at(const Wound& later) const {
-    if (later.volume.left() != incision) return std::nullopt;
-    return scale() * incision->path().coordinates(later.incision->path().at(0).position).s;
+  /// Where a later cut opens into this one, mm along the path, with its start or its end; none: it does not.
+  std::optional<double> mouth_of(const Wound& later, bool at_end) const {
+    const auto& mouth = later.volume.mouth(at_end);
+    if (!mouth || mouth->earlier != incision) return std::nullopt;
+    const Vec3 place = later.incision->path().at(mouth->s / later.scale()).position;
+    return scale() * incision->path().coordinates(place).s;
   }
 
   const Incision* incision;

@@ -1,6 +1,7 @@
 #include "explorer/wound/wounds.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -12,7 +13,8 @@ Wound& Wounds::add(Wound wound) {
   relief_.push_back(relief_.empty() ? Relief() : relief_.back());
   Wound& added = wounds_.emplace_back(std::move(wound));
   for (std::size_t k = 0; k + 1 < wounds_.size(); ++k)
-    if (added.leaves(wounds_[k])) added.volume.leaves(*wounds_[k].incision);
+    for (const bool at_end : {false, true})
+      if (added.opens_into(wounds_[k], at_end)) added.volume.opens_into(*wounds_[k].incision, at_end);
   return added;
 }
 
@@ -48,12 +50,14 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
   for (std::size_t k = 0; k <= blade.cut; ++k) {
     const Wound& wound = wounds_[k];
     const double s = k == blade.cut ? blade.s : wound.complete();
-    const auto left = std::ranges::find_if(
-        wounds_, [&](const Wound& earlier) { return earlier.incision == wound.volume.left(); });
-    const Side beside = left == wounds_.end() ? Side::both : sides[left - wounds_.begin()];
+    std::array<Side, 2> beside{Side::both, Side::both};
+    for (const bool at_end : {false, true})
+      for (std::size_t j = 0; j < k; ++j)
+        if (const auto& mouth = wound.volume.mouth(at_end); mouth && mouth->earlier == wounds_[j].incision)
+          beside[at_end] = sides[j];
     auto at = wound.volume.locate_below(place, depth, nearest, sides[k], beside);
     // Ahead of the blade nothing has two sides yet, though the cell may have been split.
-    if (at && at->s >= s) at = wound.volume.locate_below(place, depth, nearest, Side::both, beside);
+    if (at && !at->is_passed(s)) at = wound.volume.locate_below(place, depth, nearest, Side::both, beside);
     if (!at) continue;
     const double own_time = at->time_at(s, wound.field.shape().cut().length);
     sum += 1 / wound.scale() *

@@ -121,7 +121,7 @@ bool Wounds::closed_by_field(int lip, const Blade& blade) const {
     const Wound& wound = wounds_[k];
     const double s = k == blade.cut ? blade.s : wound.complete();
     const auto at = wound.volume.locate(lip);
-    if (!at || !at->on_cut || at->s >= s) continue;
+    if (!at || !at->on_cut || !at->is_passed(s)) continue;
     const double t = at->time_at(s, wound.field.shape().cut().length);
     const auto moved = [&](Side side) {
       return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;

@@ -65,6 +65,10 @@ TEST(NearEnds, AreLedOverTheOtherCut) {
       }
   EXPECT_FALSE(ends_open({along(), branch(0.02)})) << "a bridge";
   EXPECT_TRUE(ends_open(with_near_ends_joined({along(), branch(0.02)}, near).paths));
+  const JoinedPaths on_it = with_near_ends_joined({along(), branch(0)}, near);
+  EXPECT_EQ(on_it.ends.size(), 0U);
+  EXPECT_GT(on_it.paths[1].at(on_it.paths[1].length()).position.y, y);
+  EXPECT_TRUE(ends_open(on_it.paths));
   // Whichever is cut first.
   EXPECT_EQ(with_near_ends_joined({branch(0.02), along()}, near).ends.size(), 1U);
 }

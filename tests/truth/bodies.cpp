@@ -20,6 +20,7 @@
 #include "encoder/samples.h"
 #include "explorer/body/simulate.h"
 #include "explorer/body/simulated_wounds.h"
+#include "explorer/incision/near_ends.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/replayed_wounds.h"
 #include "params/parameters/table.h"
@@ -285,7 +286,8 @@ class Table {
 
 BodyRequest request_of(const testing::Subject& subject, const BodyRequest& common) {
   BodyRequest request = common;
-  request.skin = subject.skin, request.paths = subject.paths;
+  request.skin = subject.skin;
+  request.paths = with_near_ends_joined(subject.paths, narrowest_bridge).paths;
   if (subject.bone) request.bone = std::make_shared<const SurfaceIndex>(*subject.bone);
   return request;
 }

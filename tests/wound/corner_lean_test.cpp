@@ -104,8 +104,8 @@ TEST(CornerLean, WhereACutLeavesAnotherIsThatOfSimulatedBranches) {
     Incision branch(skin, path_through({-0.1 * along, half * along}, up, 3), IncisionOptions{});
     branch.advance_to(branch.path().length());
     Wound of_main(main, field, 1), of_branch(branch, field, 1);
-    ASSERT_TRUE(of_branch.leaves(of_main));
-    of_branch.volume.leaves(main);
+    ASSERT_TRUE(of_branch.opens_into(of_main, false));
+    of_branch.volume.opens_into(main, false);
     const std::vector<const Wound*> cuts = {&of_main, &of_branch};
     const auto alone = [&](const Wound& cut, double s) {
       const auto [u, time] = cut.volume.canonical(s, cut.complete());
@@ -116,8 +116,8 @@ TEST(CornerLean, WhereACutLeavesAnotherIsThatOfSimulatedBranches) {
     // Pulled alike, of cuts of 30 and 15 mm: 3.25 and 2.5 mm across at a right angle.
     const std::vector<Amplitude> in_membrane = {
         {{0}, {(angle == 90 ? 3.25 : 3.2) / across}},
-        {{0}, {(angle == 90 ? 2.5 : 2.45) / alone(of_branch, of_branch.volume.opens_on())}}};
-    const CornerLean found = lean_where_left(0, half, 1, cuts, branch.path().length(), in_membrane);
+        {{0}, {(angle == 90 ? 2.5 : 2.45) / alone(of_branch, of_branch.volume.opens_on(false))}}};
+    const CornerLean found = lean_at_mouth(0, half, 1, false, cuts, branch.path().length(), in_membrane);
     EXPECT_NEAR(found.before * across, angle == 90 ? 0.38 : 0.35, 0.12) << angle;
     EXPECT_NEAR(found.after * across, angle == 90 ? 0.36 : 0.14, 0.12) << angle;
   }

@@ -340,9 +340,12 @@ TEST(Guard, LeavesOutNothingThatItMoves) {
 TEST(Guard, IsTheSameLiveBitForBit) {
   const Field field = pulled();
   const SurfaceMesh plate = plate_with_slivers();
-  const ScalpelPath paths[] = {path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3),
-                               path_through({{-10, -4, 0}, {10, 6, 0}}, up, 3)};
-  for (const std::size_t count : {1, 2}) {
+  const ScalpelPath first = path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3),
+                    across = path_through({{-10, -4, 0}, {10, 6, 0}}, up, 3),
+                    into_first = path_through({{10, 10, 0}, {2, 0.2, 0}}, up, 3);
+  for (const std::vector<ScalpelPath>& paths :
+       {std::vector{first}, std::vector{first, across}, std::vector{first, into_first}}) {
+    const std::size_t count = paths.size();
     CutMesh mesh(plate);
     std::vector<std::unique_ptr<Incision>> cuts;
     LiveWounds live;

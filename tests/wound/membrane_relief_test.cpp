@@ -137,10 +137,10 @@ TEST(MembraneRelief, OfACutThatLeavesAnotherIsOpenAtItsStart) {
   Made made;
   std::vector<Wound> opened = made.open(pulled, {line(-15, 0.1, 15, 0.1), line(0, 0, 0, 16)});
   const Incision *main = made.cuts[0].get(), *branch = made.cuts[1].get();
-  ASSERT_TRUE(opened[1].leaves(opened[0]));
-  EXPECT_FALSE(opened[0].leaves(opened[1]));
+  ASSERT_TRUE(opened[1].opens_into(opened[0], false));
+  EXPECT_FALSE(opened[0].opens_into(opened[1], false));
   const ReplayedWounds wounds(std::move(opened));
-  ASSERT_EQ(wounds[1].volume.left(), main);
+  ASSERT_EQ(wounds[1].volume.mouth(false)->earlier, main);
   std::vector<Vec3> now(wounds.vertex_count());
   wounds.positions(wounds.duration(), now);
   // The lips of the branch are apart at its start as they are a depth from there.
@@ -163,6 +163,68 @@ TEST(MembraneRelief, OfACutThatLeavesAnotherIsOpenAtItsStart) {
   const auto growing = membrane_relief({&wounds[0], &wounds[1]}, {0, 16});
   for (const double s : {0., 1., 8.}) EXPECT_EQ(growing[0][1].at(s), 0);
   EXPECT_GT(growing[1][1].at(0), 0.3);
+}
+
+/// The same the other way: it is closed until the blade comes to the other cut, and then opens as one that
+/// leaves it; in between continuously.
+TEST(MembraneRelief, OfACutThatEndsInAnotherIsOpenAtItsEndWhenTheBladeIsThere) {
+  const Field pulled = in_tension(opening_field(canonical, 60, 60, 6, 3), {{"skin.prestress_v", 0.03}});
+  Made made;
+  std::vector<Wound> opened = made.open(pulled, {line(-15, 0.1, 15, 0.1), line(0, 16, 0, 0)});
+  ASSERT_TRUE(opened[1].opens_into(opened[0], true));
+  EXPECT_FALSE(opened[1].opens_into(opened[0], false));
+  const ReplayedWounds wounds(std::move(opened));
+  const OpenedTo opened_to = wounds[1].volume.opened_to();
+  EXPECT_NEAR(opened_to.end, 15.9, 1e-6);
+  EXPECT_NEAR(opened_to(16), 15.9 + 3, 1e-6);
+  const double before = opened_to.begins();
+  EXPECT_EQ(opened_to(before), before);
+  std::vector<Vec3> now(wounds.vertex_count());
+  const auto apart = [&](const Incision::ChainVertex& c) { return norm(now[c.right] - now[c.left]); };
+  const Incision &main = *made.cuts[0], &branch = *made.cuts[1];
+  // Before it arrives its front is closed.
+  wounds.positions(30 + before, now);
+  for (const auto& c : branch.chain())
+    if (c.s > before) EXPECT_LT(apart(c), 1e-9) << c.s;
+  // And then its lips are apart at its end as they are a depth from there.
+  wounds.positions(wounds.duration(), now);
+  std::vector<double> complete;
+  for (const auto& c : branch.chain())
+    if (c.s > 10 && c.s < 15.8) complete.push_back(apart(c));
+  ASSERT_GT(complete.size(), 4U);
+  for (const double one : complete) EXPECT_NEAR(one, complete.front(), 0.25 * complete.front());
+  EXPECT_GT(complete.back(), 0.5);
+  std::vector<double> way;  // of the lip beyond, which stays whole
+  for (const auto& c : main.chain())
+    if (c.s > 10 && c.s < 20) way.push_back(now[c.right].x);
+  EXPECT_TRUE(std::ranges::is_sorted(way));
+  // In between nothing jumps.
+  constexpr int steps = 100;
+  std::vector<Vec3> last(wounds.vertex_count());
+  wounds.positions(30 + before, last);
+  for (int i = 1; i <= steps; ++i) {
+    wounds.positions(30 + before + (16 - before) * i / steps, now);
+    double most = 0;
+    for (std::size_t v = 0; v < now.size(); ++v) most = std::max(most, norm(now[v] - last[v]));
+    EXPECT_LT(most, 0.15 * complete.back()) << i;
+    std::swap(now, last);
+  }
+}
+
+/// Where the mesh has a bridge of skin before the other cut, nothing opens on.
+TEST(MembraneRelief, OfACutThatStopsBeforeAnotherStaysClosedAtItsEnd) {
+  const Field pulled = in_tension(opening_field(canonical, 60, 60, 6, 3), {{"skin.prestress_v", 0.03}});
+  CutMesh mesh(grid(60, 40, -60.3, -40.1, 2));
+  Incision main(mesh, path_through(line(-15, 0.1, 15, 0.1), up, 3), IncisionOptions{});
+  main.advance_to(30);
+  Incision branch(mesh, path_through(line(0, 16, 0, 0.1), up, 3), IncisionOptions{});
+  branch.advance_to(15.4);
+  Wound of_main(main, pulled, 1), of_branch(branch, pulled, 1);
+  ASSERT_TRUE(of_branch.opens_into(of_main, true));
+  of_branch.volume.opens_into(main, true);
+  EXPECT_GT(of_branch.volume.opened_to().runs_on, 0) << "it may come there yet";
+  branch.advance_to(15.89);
+  EXPECT_EQ(of_branch.volume.opened_to().runs_on, 0) << branch.tip();
 }
 
 /// Where a cut is crossed its pieces end, wherever that is: where it was within a piece, the piece felt the
