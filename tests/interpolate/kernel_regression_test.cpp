@@ -273,14 +273,14 @@ TEST(KernelRegression, TuningMakesNoMethodWorse) {
   }
 }
 
-/// Places of a sparse grid of four features: five values of each alone, and the corners of each two. Data are
-/// of what no polynomial of the second degree tells, with noise as fits have it.
+/// Places of a sparse grid of four features, or fewer: five values of each alone, and the corners of each
+/// two. Data are of what no polynomial of the second degree tells, with noise as fits have it.
 class SparseGrid {
  public:
-  explicit SparseGrid(double noise) {
+  explicit SparseGrid(double noise, int count = 4) {
     std::vector<Eigen::Vector4d> places = {Eigen::Vector4d::Zero()};
     const double inner = std::numbers::sqrt2 / 2;
-    for (int a = 0; a < 4; ++a) {
+    for (int a = 0; a < count; ++a) {
       for (const double x : {-1., -inner, inner, 1.}) places.push_back(x * Eigen::Vector4d::Unit(a));
       for (int b = 0; b < a; ++b)
         for (const double x : {-1., 1.})
@@ -290,10 +290,10 @@ class SparseGrid {
     std::mt19937 random(1);
     std::normal_distribution<double> distribution(0, 1);
     const auto n = static_cast<Eigen::Index>(places.size());
-    problem = {{Eigen::MatrixXd(n, 4), Eigen::MatrixXd::Ones(n, 1), {}}, Eigen::MatrixXd(rows, n)};
+    problem = {{Eigen::MatrixXd(n, count), Eigen::MatrixXd::Ones(n, 1), {}}, Eigen::MatrixXd(rows, n)};
     noises.resize(rows, n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      problem.cases.features.row(i) = places[i];
+      problem.cases.features.row(i) = places[i].head(count);
       for (Eigen::Index k = 0; k < rows; ++k) {
         noises(k, i) = noise * distribution(random);
         problem.data(k, i) = value(places[i]) + noises(k, i);
@@ -370,6 +370,15 @@ TEST(KernelRegression, OnASparseGridAProcessPassesThroughCasesThatAreFittedAlike
   EXPECT_LT(grid.off_cases(through), 1e-3);
   EXPECT_GT(grid.off_cases(tuned), 10 * grid.off_cases(through));
   EXPECT_LT(grid.error_between(through), grid.error_between(tuned));
+}
+
+/// Of two features too, as those of a family that are varied alone with one another.
+TEST(KernelRegression, ASparseGridOfTwoFeaturesIsOne) {
+  SparseGrid grid(0, 2);
+  ASSERT_EQ(grid.problem.cases.features.rows(), 13);
+  grid.problem.cases.fitted_alike = true;
+  EXPECT_EQ(all_methods(grid.problem.cases).size(), 1u);
+  EXPECT_LT(grid.off_cases(process_of(grid.problem.cases)), 1e-3);
 }
 
 /// Nor are scattered cases a sparse grid because one feature takes two values in them.
