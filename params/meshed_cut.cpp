@@ -18,7 +18,7 @@ double front_of(double length, double size, double part, int ends) {
 FrontParts front_parts(const Parameters& p) {
   if (p.mesh.front == MeshFront::nodes) return {0, 0};
   if (p.mesh.elements == ElementOrder::quadratic) return {0.1, 0.1};
-  return is_nearly_incompressible(p) ? FrontParts{0.32, 0.18} : FrontParts{0.42, 0.3};
+  return has_chess_board(p) ? FrontParts{0.32, 0.18} : FrontParts{0.42, 0.3};
 }
 
 MeshedCut meshed_cut(const Parameters& p) {

@@ -12,7 +12,7 @@ namespace cleft {
 /// node, differs from it by K h / sqrt(r) g(angle) at distances of many elements h, which is what moving the
 /// front by a part of h changes. So the mesh's error is, to first order and everywhere, that of a cut which
 /// ends this part before its closed nodes. The part depends on the shape of the elements, and hardly on
-/// Poisson's ratio, but that nearly incompressible tissue has other ones; measured with slits in a sheet
+/// Poisson's ratio, and is another one of a chess board (has_chess_board); measured with slits in a sheet
 /// (ends) and cuts of growing depth (bottom):
 /// tests/solver/verification_front_test.cpp; of quadratic elements with benchmarks/elements.
 struct FrontParts {

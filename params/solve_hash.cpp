@@ -18,9 +18,8 @@ std::string solve_hash(const Parameters& parameters, const std::string& body) {
     if (row.added_later && get_parameter(parameters, row) == get_parameter(Parameters{}, row)) continue;
     text += row.name + "=" + to_text(get_parameter(parameters, row)) + "\n";
   }
-  // Patches of this formulation had the diagonals of nearly incompressible tissue in any tissue before.
-  if (parameters.tissue.formulation == TissueFormulation::mean_dilatation &&
-      !is_nearly_incompressible(parameters))
+  // All patches with mean dilatation had a chess board before.
+  if (parameters.tissue.formulation == TissueFormulation::mean_dilatation && !has_chess_board(parameters))
     text += "diagonals=rows\n";
   if (!body.empty()) text += "body=" + body + "\n";
   return sha256(text).substr(0, 16);

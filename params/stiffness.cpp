@@ -19,6 +19,9 @@ std::string text_of_all(const Parameters& p) {
   return key;
 }
 
+/// The one thing in a mesh that a modulus tells.
+std::string diagonals_of(const Parameters& p) { return has_chess_board(p) ? "chess board" : ""; }
+
 }  // namespace
 
 std::string stiffness_key(Parameters p) {
@@ -45,15 +48,20 @@ Parameters with_moduli_of(const Parameters& parameters, const Parameters& other)
   return p;
 }
 
+std::string mesh_key(const Parameters& p) {
+  return stiffness_key(with_moduli_of(p, Parameters())) + diagonals_of(p);
+}
+
 std::string pattern_key(const Parameters& p) {
-  return stiffness_key(with_moduli_of(p, Parameters())) + (p.skin.bending_stiffness > 0 ? "bends" : "");
+  return mesh_key(p) + (p.skin.bending_stiffness > 0 ? "bends" : "");
 }
 
 std::string mesh_and_release_key(Parameters p) {
   const Parameters defaults;
+  const std::string diagonals = diagonals_of(p);
   p = with_moduli_of(p, defaults);
   p.skin.prestress = defaults.skin.prestress, p.tissue.prestress_share = defaults.tissue.prestress_share;
-  return text_of_all(p);
+  return text_of_all(p) + diagonals;
 }
 
 StiffnessRatios stiffness_ratios(const Parameters& one, const Parameters& other) {

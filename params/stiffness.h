@@ -11,8 +11,9 @@ namespace cleft {
 /// factorisation. (In the finite model K is the tangent at the reference state, and all but the cut counts.)
 std::string stiffness_key(Parameters parameters);
 
-/// Those of stiffness_key() on which the mesh and the places of K's entries depend, as text: not moduli,
-/// springs and the skin's thickness.
+/// Those of stiffness_key() on which the mesh depends, as text: not moduli, springs and the skin's thickness.
+std::string mesh_key(const Parameters& parameters);
+/// The same for the mesh and the places of K's entries.
 std::string pattern_key(const Parameters& parameters);
 
 /// The parameters that make the mesh, and the order in which its cut opens, as text: all but moduli, springs,

@@ -149,7 +149,7 @@ class PatchMesher {
   std::array<std::array<Place, 3>, 2> triangles_of_square(int i, int j, int step) const {
     const Place a{i, j}, b{i + step, j}, c{i + step, j + step}, d{i, j + step};
     const auto rows = [&](int line, int first) { return (line - line % lines_ - first) / lines_; };
-    if (diagonal_rises(is_nearly_incompressible(p_), rows(i, grid_.cut_from), rows(j, grid_.planes[0])))
+    if (diagonal_rises(has_chess_board(p_), rows(i, grid_.cut_from), rows(j, grid_.planes[0])))
       return {{{a, b, c}, {a, c, d}}};
     return {{{a, b, d}, {b, c, d}}};
   }

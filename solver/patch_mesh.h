@@ -117,7 +117,7 @@ void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values);
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that
 /// rises from (i, j). Rows of squares alternate: all columns of nodes are equally compliant, so that the
 /// displacement follows the tip smoothly. Of a `chess_board` squares alternate like its colours: in tissue
-/// that is_nearly_incompressible() motions in the plane lock except at nodes of four triangles between two
+/// that is nearly incompressible motions in the plane lock except at nodes of four triangles between two
 /// straight lines, whose volumes are not independent. Nodes of four triangles are next to nodes of eight,
 /// whose compliance differs, so that every other frame differs slightly.
 bool diagonal_rises(bool chess_board, int i, int j);

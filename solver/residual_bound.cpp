@@ -101,7 +101,6 @@ ResidualBound::ResidualBound(const Parameters& reference, MPI_Comm communicator,
 SnapshotBound ResidualBound::of(const SnapshotReader& reader, bool solve, const std::string& where) {
   const Snapshot& s = reader.snapshot();
   const Parameters parameters = parameters_to_bound(s, where);
-  const auto mesh_key = [](const Parameters& p) { return stiffness_key(with_moduli_of(p, Parameters())); };
   if (mesh_key(parameters) != mesh_key(reference_))
     throw InputError(where +
                      ": its mesh is not that of the reference; give a reference of the same patch, cut "

@@ -80,10 +80,12 @@ struct Parameters {
   } foundation;
 };
 
-/// Whether the tissue is nearly incompressible: its elements lock unless the volume of each changes as a
-/// whole, and in the plane except where diagonals alternate like the colours of a chess board.
-inline bool is_nearly_incompressible(const Parameters& p) {
-  return p.tissue.formulation == TissueFormulation::mean_dilatation && p.tissue.poisson_ratio > 0.45;
+/// Whether the squares of a patch are halved like the colours of a chess board, with which nearly
+/// incompressible tissue does not lock in the plane, and else in rows, whose fields are smoother: under a
+/// tilted blade mean dilatation is for the thin lip, in any tissue.
+inline bool has_chess_board(const Parameters& p) {
+  return p.tissue.formulation == TissueFormulation::mean_dilatation &&
+         (p.cut.tilt == 0 || p.tissue.poisson_ratio > 0.45);
 }
 
 /// Whether the skin's prestress is a part of the stiffness of the small model.
