@@ -109,7 +109,8 @@ bool on_sparse_grid(const Distinct& distinct) {
   const auto few = [&](Eigen::Index n) { return 2 * n < distinct.places; };
   double combinations = 1;
   for (const Eigen::Index n : distinct.values) combinations *= static_cast<double>(n);
-  return std::ranges::all_of(distinct.values, few) && 2 * combinations > 3 * static_cast<double>(distinct.places);
+  return std::ranges::all_of(distinct.values, few) &&
+         2 * combinations > 3 * static_cast<double>(distinct.places);
 }
 
 /// By which hyperparameters of a Gaussian process are chosen. Where cases are scattered, from six a feature
