@@ -315,11 +315,13 @@ TEST(Sampling, RangesThatAreKeptApartHaveNoPair) {
     with_depth += p.cut.depth != 3 && p.skin.curvature_uv != 0;
   }
   EXPECT_EQ(with_depth, 4u);
-  for (const std::string wrong : {"'cut.tilt'", "'skin.curvature_uv'"})
-    expect_message(three + ", not_with = [" + wrong + "]" + end, {"not_with = [", "must name other ranges"});
-  for (const std::string wrong : {"[]", "'cut.depth'", "[1]"})
-    expect_message(three + ", not_with = " + wrong + end,
-                   {"line 4: skin.curvature_uv: not_with: must be a list"});
+  const auto with = [&](const std::string& list) {
+    return std::string(three).append(", not_with = ").append(list).append(end);
+  };
+  for (const char* wrong : {"['cut.tilt']", "['skin.curvature_uv']"})
+    expect_message(with(wrong), {"not_with = [", "must name other ranges"});
+  for (const char* wrong : {"[]", "'cut.depth'", "[1]"})
+    expect_message(with(wrong), {"line 4: skin.curvature_uv: not_with: must be a list"});
   expect_message(three + ", alone = true, not_with = ['cut.depth']" + end, {"that are not alone; remove it"});
 }
 
