@@ -351,19 +351,18 @@ std::vector<Case> in_unit_tensions(const std::vector<Case>& cases) {
   return result;
 }
 
-/// Without the images of earlier cases, where these stand for them.
-std::vector<Case> without_mirror_images(const std::vector<Case>& cases) {
-  std::vector<Case> result;
+/// Takes away the images of earlier cases, where these stand for them.
+void leave_out_mirror_images(std::vector<Case>& cases) {
   std::set<std::string> images;
-  for (const Case& one : cases) {
-    if (images.contains(one.hash())) continue;
-    result.push_back(one);
-    if (!one.parameters.cut.mirrored) continue;
+  std::erase_if(cases, [&](const Case& one) {
+    if (!one.parameters.cut.mirrored) return false;
+    const std::string own = one.hash();
+    if (images.contains(own)) return true;
     Case image = one;
     image.parameters = mirror_image(one.parameters);
-    if (image.hash() != one.hash()) images.insert(image.hash());
-  }
-  return result;
+    if (const std::string hash = image.hash(); hash != own) images.insert(hash);
+    return false;
+  });
 }
 
 }  // namespace
@@ -385,7 +384,7 @@ void settle_formulation(const Study& study, Case& one) {
 std::vector<Case> cases_of(const Study& study) {
   std::vector<Case> cases = find_sampling(study.sampling.method, study.name).sample(study);
   for (Case& one : cases) settle_formulation(study, one);
-  cases = without_mirror_images(cases);
+  leave_out_mirror_images(cases);
   if (study.sampling.unit_tensions) cases = in_unit_tensions(cases);
   Mistakes mistakes;
   std::set<std::string> identities;

@@ -1,5 +1,6 @@
 #include "params/parameters/mirror_image.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "params/parameters/table.h"
@@ -31,9 +32,7 @@ std::vector<std::string> names() {
 
 bool changes_sign_in_mirror(const std::string& name) {
   static const std::vector<std::string> all = names();
-  for (const std::string& one : all)
-    if (one == name) return true;
-  return false;
+  return std::ranges::find(all, name) != all.end();
 }
 
 Parameters mirror_image(Parameters p) {

@@ -330,14 +330,19 @@ class SamplingReader {
     return names;
   }
 
-  /// Of all ranges, once all are read.
+  std::string where_varied(const toml::table& vary, const Variation& one) const {
+    return where(vary.contains(one.name) ? *vary.get(one.name) : vary);
+  }
+
+  // Of all ranges, once all are read:
+
   void check_not_with(const toml::table& vary) {
     for (const Variation& one : study_.vary) {
       if (!one.range) continue;
       for (const std::string& name : one.range->not_with)
         if (name == one.name || std::ranges::find(study_.vary, name, &Variation::name) == study_.vary.end())
-          mistakes_.add(where(vary.contains(one.name) ? *vary.get(one.name) : vary) + ": " + one.name +
-                        ": not_with = [\"" + name + "\"]: must name other ranges under [vary]");
+          mistakes_.add(where_varied(vary, one) + ": " + one.name + ": not_with = [\"" + name +
+                        "\"]: must name other ranges under [vary]");
     }
   }
 
@@ -348,8 +353,7 @@ class SamplingReader {
         return v.name == one.range->shares && v.name != one.name;
       });
       if (other == study_.vary.end() || !other->range || other->range->alone || !other->range->shares.empty())
-        mistakes_.add(where(vary.contains(one.name) ? *vary.get(one.name) : vary) + ": " + one.name +
-                      ": shares = \"" + one.range->shares +
+        mistakes_.add(where_varied(vary, one) + ": " + one.name + ": shares = \"" + one.range->shares +
                       "\": must name another range under [vary], which is not alone and shares with none");
     }
   }
