@@ -325,16 +325,17 @@ class Together {
 
   /// With so many pieces of the last cut open, which has run on in part.
   std::vector<Amplitude> when_cut(Eigen::Index pieces, double part_on) const {
-    std::vector<Amplitude> result = when_cut(pieces, part_on > 0);
+    std::vector<Amplitude> result = with_pieces(pieces, part_on > 0);
     if (0 < part_on && part_on < 1) {
-      std::vector<Amplitude> before = when_cut(pieces, false);
+      std::vector<Amplitude> before = with_pieces(pieces, false);
       go_to(result, part_on, before);
       return before;
     }
     return result;
   }
 
-  std::vector<Amplitude> when_cut(Eigen::Index pieces, bool has_run_on) const {
+  /// The same, which has run on or not.
+  std::vector<Amplitude> with_pieces(Eigen::Index pieces, bool has_run_on) const {
     const Eigen::Index rows = 2 * pieces;
     const Eigen::VectorXd opened =
         left_.topLeftCorner(rows, rows).partialPivLu().solve(left_tractions_.head(rows));
