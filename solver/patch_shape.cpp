@@ -12,7 +12,6 @@ namespace cleft {
 namespace {
 
 constexpr double largest_step = 0.05;  // mm
-constexpr double twist_fall = 20;      // mm over which the twist fades, along and across
 constexpr double beyond_the_cut = 1;   // mm for which a curved cut's curvature goes on
 
 FramedCurve::Place sum(const FramedCurve::Place& p, double h, const FramedCurve::Place& slope) {
@@ -117,18 +116,6 @@ double TurnAndBack::operator()(double s) const {
   return -back_ / 2 * (1 + cosine(core_ + fall_ + plateau_));
 }
 
-double TurnAndBack::integral(double s) const {
-  const double x = std::abs(s), in_fall = std::clamp(x - core_, 0., fall_),
-               in_plateau = std::clamp(x - core_ - fall_, 0., plateau_),
-               in_rise = std::clamp(x - core_ - fall_ - plateau_, 0., fall_);
-  const auto sine = [&](double part) {
-    return fall_ / std::numbers::pi * std::sin(std::numbers::pi * part / fall_);
-  };
-  const double sum = std::min(x, core_) + (1 - back_) / 2 * in_fall + (1 + back_) / 2 * sine(in_fall) -
-                     back_ * in_plateau - back_ / 2 * (in_rise + sine(in_rise));
-  return std::copysign(sum, s);
-}
-
 BendAndBack::BendAndBack(const Parameters& p)
     : curvature_(p.cut.curvature),
       rate_(p.cut.curvature_rate),
@@ -177,14 +164,11 @@ PatchShape::PatchShape(const Parameters& p)
       cut_depth_(meshed_cut(p).depth),
       bend_(p),
       along_turn_(core_of(p), core_of(p) / 2, 1),
-      twist_turn_(core_of(p), std::max(core_of(p) / 2, twist_fall), 1),
       across_turn_(core_across(p), core_across(p) / 2, 1),
-      twist_(p.skin.curvature_uv),
-      twist_core_(std::min(20., core_of(p))),
       path_([bend = bend_](double s) { return FramedCurve::Rates{.bend = bend(s)}; }, bend_.reach()),
-      spine_([k = p.skin.curvature_u, twist = twist_, turn = along_turn_, twists = twist_turn_](
-                 double s) { return FramedCurve::Rates{.normal = k * turn(s), .twist = twist * twists(s)}; },
-             std::max(along_turn_.reach(), twist_turn_.reach())),
+      spine_([k = p.skin.curvature_u, twist = p.skin.curvature_uv, turn = along_turn_](
+                 double s) { return FramedCurve::Rates{.normal = k * turn(s), .twist = twist}; },
+             p.patch.length),
       profile_([k = p.skin.curvature_v,
                 turn = across_turn_](double s) { return FramedCurve::Rates{.normal = k * turn(s)}; },
                across_turn_.reach()) {}
@@ -224,26 +208,15 @@ double PatchShape::plane_determinant(double u, double v) const {
   return (1 - bend_(u) * across(v)) * (slope + (1 - slope) * path_(u).t.x);
 }
 
-/// B and N are turned back about T by the angle that the twist has turned them, times a part that rises from
-/// 0 to 1 across.
 PatchShape::Surface PatchShape::surface(double x, double y) const {
   if (flat_) return {{x, y, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const FramedCurve::Place spine = spine_(x), profile = profile_(y);
   const FramedCurve::Rates rates = spine_.rates(x);
-  const double beyond = std::clamp((std::abs(y) - twist_core_) / twist_fall, 0., 1.);
-  const double part = (1 - std::cos(std::numbers::pi * beyond)) / 2,
-               turned = twist_ * twist_turn_.integral(x);
-  const double part_slope =
-      std::copysign(std::numbers::pi / 2 / twist_fall * std::sin(std::numbers::pi * beyond), y);
-  const double angle = turned * part, twist = rates.twist * (1 - part);
-  const Vec3 b = std::cos(angle) * spine.b + std::sin(angle) * spine.n;
-  const Vec3 n = std::cos(angle) * spine.n - std::sin(angle) * spine.b;
   const double across = profile.at.x, up = profile.at.z;
   Surface s;
-  s.at = spine.at + across * b + up * n;
-  s.x = (1 + rates.normal * (across * std::sin(angle) + up * std::cos(angle))) * spine.t +
-        twist * (up * b - across * n);
-  s.y = profile.t.x * b + profile.t.z * n + turned * part_slope * (across * n - up * b);
+  s.at = spine.at + across * spine.b + up * spine.n;
+  s.x = (1 + rates.normal * up) * spine.t + rates.twist * (up * spine.b - across * spine.n);
+  s.y = profile.t.x * spine.b + profile.t.z * spine.n;
   s.normal = normalized(cross(s.x, s.y));
   return s;
 }

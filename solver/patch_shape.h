@@ -47,7 +47,6 @@ class TurnAndBack {
  public:
   TurnAndBack(double core, double fall, double back);
   double operator()(double s) const;
-  double integral(double s) const;       ///< from the middle, mm; odd
   double reach() const { return end_; }  ///< 0 from there on, mm
 
  private:
@@ -82,9 +81,8 @@ class BendAndBack {
 ///   ends, so that the patch is a strip of its width;
 /// - surface: (x, y) -> C2(x) + a(y) B(x) + b(y) N(x): a curve of normal curvature skin.curvature_u and
 ///   geodesic torsion skin.curvature_uv, with a profile (a, b) of curvature skin.curvature_v across it. The
-///   curvatures are constant near the cut and turn back beyond, so that the patch does not meet itself; for
-///   the same reason the profile far across is turned back about the curve's tangent by what the torsion has
-///   turned it. Depth is along the surface's normal.
+///   curvatures are constant near the cut and turn back beyond, so that the patch does not meet itself; the
+///   torsion is constant. Depth is along the surface's normal.
 class PatchShape {
  public:
   explicit PatchShape(const Parameters& parameters);
@@ -121,8 +119,7 @@ class PatchShape {
   bool flat_;                          // the skin
   double slope_, height_, cut_depth_;  // of the bottom
   BendAndBack bend_;
-  TurnAndBack along_turn_, twist_turn_, across_turn_;
-  double twist_, twist_core_;  // at the middle, and how far across it reaches undiminished
+  TurnAndBack along_turn_, across_turn_;
   FramedCurve path_, spine_, profile_;
 };
 

@@ -160,7 +160,7 @@ TEST(PatchShape, TheSkinHasTheCurvaturesThatAreAskedFor) {
   EXPECT_NEAR(norm(shape.tension(4, 0) - along), 0, 1e-12);
 }
 
-/// Everywhere, by differences: near the cut, where curvatures turn back, and where the twist fades.
+/// Everywhere, by differences: near the cut, and where curvatures turn back.
 TEST(PatchShape, DepthIsAlongTheNormalAndTensionAlongTheImageOfTheFirstAxis) {
   Parameters p = coarse();
   p.skin.curvature_u = 0.02, p.skin.curvature_v = -0.03, p.skin.curvature_uv = 0.015;
