@@ -29,6 +29,7 @@ struct Fronts {
 struct MeshedCut {
   double length, depth, branch;
   Fronts fronts;
+  double step;  ///< of its nodes along it, at most
 };
 
 /// Of the longest and deepest cut that the mesh of these parameters is made for.

@@ -21,6 +21,8 @@ std::string solve_hash(const Parameters& parameters, const std::string& body) {
   // All patches with mean dilatation had a chess board before.
   if (parameters.tissue.formulation == TissueFormulation::mean_dilatation && !has_chess_board(parameters))
     text += "diagonals=rows\n";
+  // The elements of tilted cuts were as long as those of upright ones.
+  if (parameters.cut.tilt != 0) text += "length_of_elements=by_tilt\n";
   // The torsion faded away from the cut before.
   if (parameters.skin.curvature_uv != 0) text += "torsion=constant\n";
   if (!body.empty()) text += "body=" + body + "\n";

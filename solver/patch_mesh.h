@@ -92,7 +92,8 @@ struct PatchMesh : WedgeCells {
 /// The surface of every cut coincides with element faces, and its ends and its bottom lie just inside nodes
 /// (params/meshed_cut.h). Elements are at most
 /// mesh.element_size long within the cut (an arc: along it), between parallel cuts and along a branch; away
-/// from them they grow by mesh.grading. The mesh is made for a cut of mesh.cut_length by mesh.cut_depth if
+/// from them they grow by mesh.grading. Under a tilted blade they are shorter along the cut, and narrower next to
+/// its lips. The mesh is made for a cut of mesh.cut_length by mesh.cut_depth if
 /// these are given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the
 /// first cut have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with
 /// u > 0). Nodes move in v only onto a curved or tilted cut, and the patch stays a box; then a patch that

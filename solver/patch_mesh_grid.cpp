@@ -90,7 +90,7 @@ class GridMaker {
 
  private:
   void add_u_lines() {
-    const double end = p_.patch.length / 2, step = p_.mesh.element_size;
+    const double end = p_.patch.length / 2, step = shape_.cut.step;
     grid_.fronts = shape_.cut.fronts;
     grid_.along = {-shape_.length / 2};
     if (p_.cut.branch > 0) add_stretch(grid_.along, 0, step);

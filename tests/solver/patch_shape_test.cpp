@@ -176,6 +176,24 @@ TEST(PatchShape, DepthIsAlongTheNormalAndTensionAlongTheImageOfTheFirstAxis) {
     }
 }
 
+/// Twist as at 45 degrees on a cylinder of 30 mm, together with what else a family has.
+TEST(PatchShape, TwistedPatchesDoNotFold) {
+  Parameters p;
+  p.cut.length = 36, p.mesh.element_size = 2, p.skin.curvature_uv = 1 / 60.;
+  for (double* other :
+       {&p.skin.curvature_u, &p.skin.curvature_v, &p.cut.curvature, &p.cut.curvature_rate, &p.cut.tilt})
+    for (const double way : {-1., 1.}) {
+      *other = way * (other == &p.cut.tilt             ? 45
+                      : other == &p.cut.curvature      ? 1 / 15.
+                      : other == &p.cut.curvature_rate ? 0.005
+                                                       : 1 / 30.);
+      EXPECT_NO_THROW(make_patch_mesh(p));
+      *other = 0;
+    }
+  p.skin.curvature_u = p.skin.curvature_v = 1 / 60.;
+  EXPECT_NO_THROW(make_patch_mesh(p));
+}
+
 TEST(PatchShape, ItsBottomSlopesAndLevelsOff) {
   Parameters p = coarse();
   p.patch.slope = 0.3;

@@ -82,11 +82,12 @@ TEST(Front, TheOpeningUnderATiltedBladeDoesNotDependOnTheElements) {
 
 /// Times and places are those of the fronts: the cut is as long and as deep as it was asked for.
 TEST(Front, ACutEndsWhereItWasAskedTo) {
-  for (const double radius : {0., 20.})
+  for (const auto& [radius, tilt] : {std::pair{0., 0.}, {20., 0.}, {0., 45.}})
     for (const double branch : {0., 5.})
       for (const double size : {0.7, 1., 1.3, 2.}) {
         Parameters p;
         p.cut.length = 17, p.cut.depth = 2.5, p.cut.radius = radius, p.cut.branch = branch;
+        p.cut.tilt = tilt;
         p.mesh.element_size = size;
         const PatchMesh mesh = make_patch_mesh(p);
         const Release release = make_release(mesh, p);
