@@ -12,11 +12,15 @@ namespace {
 using Vector = Eigen::Vector2d;
 
 /// How far a corner of a right angle rises over the way that it draws back, with a cut as deep as the skin is
-/// thick, and the power of the depth over that; and by how much more with the cosine of the angle. Of
-/// simulated crossings at 30, 45, 60 and 75 degrees, pulled 1 : 3 and alike, with cuts 2, 3 and 5 mm deep, in
-/// tissue of 0.008, 0.02 and 0.05 MPa, which makes no difference.
-constexpr double rises = 0.357, with_depth = 0.36, with_cosine = 0.13;
-constexpr double usual_thickness = 1.5;
+/// thick, and the power of the depth over that; and by how much more with the cosine of the angle.
+struct Rises {
+  double right_angle, with_depth, with_cosine;
+};
+/// Of simulated crossings at 30, 45, 60 and 75 degrees, pulled 1 : 3 and alike, with cuts 2, 3 and 5 mm deep,
+/// in tissue of 0.008, 0.02 and 0.05 MPa, which makes no difference.
+constexpr Rises at_crossings{0.43, 0.27, 0.15};
+/// Of simulated branches at 45, 60 and 90 degrees.
+constexpr Rises at_mouths{0.357, 0.36, 0.13};
 /// Depths of the cut along it.
 constexpr double corner_reach = 2. / 3;
 /// Depths that a cut goes beyond a crossing where its corners are free.
@@ -48,10 +52,6 @@ Opening opening_of(const Wound& cut, double s, double blade, const Amplitude& in
   return result;
 }
 
-double depth_at(const Wound& cut, double s) {
-  return cut.incision->path().depth(s / cut.scale()) * cut.scale();
-}
-
 }  // namespace
 
 double CornerLean::at(double away) const { return share * std::exp(-away / reach); }
@@ -72,7 +72,7 @@ CornerLean lean_at(const Crossing& crossing, double straight_side, bool at_end,
   if (at_end)  // its corners are free when it runs on
     other.beyond = cuts[crossing.other]->volume.opened_to().beyond(blade_in(crossing.other));
   const double depth =
-      std::min(depth_at(*cuts[crossing.cut], crossing.s), depth_at(*cuts[crossing.other], crossing.other_s));
+      std::min(cuts[crossing.cut]->depth(crossing.s), cuts[crossing.other]->depth(crossing.other_s));
   CornerLean result{0, 0, std::clamp(std::min(own.beyond, other.beyond) / (freed * depth), 0., 1.),
                     corner_reach * depth};
   if (!(own.across_alone > 0) || result.share == 0) return {0, 0, 0, result.reach};
@@ -82,12 +82,12 @@ CornerLean lean_at(const Crossing& crossing, double straight_side, bool at_end,
   const Vector own_half = in_skin(own.between_lips) / 2,
                other_half = crossing.toward * in_skin(other.between_lips) / 2,
                other_ray = -crossing.toward * in_skin(other.frame.along).normalized();  // to v > 0
-  const auto& parameters = cuts[crossing.cut]->field.shape().parameters;
-  const double thickness = parameters.value_or(parameters->skin.thickness, usual_thickness),
-               of_right_angle = rises * std::pow(depth / thickness, with_depth);
+  const auto& [right_angle, with_depth, with_cosine] = straight_side == 0 ? at_crossings : at_mouths;
+  const double of_right_angle =
+      right_angle * std::pow(depth / cuts[crossing.cut]->skin_thickness(), with_depth);
   const double straight_lip = (of_right_angle - with_cosine) * own_half.y();
   // Of the piece before (-1) or behind (1) the other cut, and at v < 0 (-1) or v > 0 (1).
-  const auto height = [&](double behind, double side) {
+  const auto height = [&, with_cosine = with_cosine](double behind, double side) {
     if (side == straight_side) return straight_lip;
     const Vector along(behind, 0), other_edge = side * other_ray,
                                    drawn_back = side * own_half + behind * other_half;

@@ -29,6 +29,10 @@ constexpr double least_step = 1e-9;
 /// How far lips lean in all, over how far the other cut shears the tissue above the bottom: of simulated
 /// parallel cuts 10 to 60 mm long, 3 and 5 mm deep and 4 to 20 mm apart, in tissue of 0.008 to 0.05 MPa.
 constexpr double leaning = 1.2;
+/// Beside the other cut lips lean by so many times more of the skin's thickness over the depth, beyond the
+/// least one: up to so many depths from it, and no further than to others. Of simulated parallel cuts 4 mm
+/// apart, and cuts that cross, 2, 3 and 5 mm deep.
+constexpr double more_leaning = 0.95, least_thickness = 0.3, leaning_more = 4. / 3, not_leaning_more = 2.5;
 /// Depths of the cut: what lips lean falls to nothing over so much before an end, and by e so far from them.
 constexpr double leans_fully = 0.6, leaning_reach = 2. / 3;
 /// The shear is summed over parts of the cut's depth, each taken in its middle, and is the mean at two Gauss
@@ -40,12 +44,18 @@ constexpr double reach = 0.5;
 const double gauss = 1 / std::numbers::sqrt3;
 /// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross. Of that, so
 /// far from the crossing along a cut its corners are, and ends what keeps them from parting.
-constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
+constexpr double lean_fades = 0.05, corner_part = 0.5, parts_within = 2;
 /// Depths to either side of where another cut opens into this one, over which what its field does not move of
 /// the lips is linear: the lip beyond is whole there.
 constexpr double mouth_reach = 0.5;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
+
+/// How much more lips lean so many depths from a cut, in skin of this thickness over the depth.
+double leaning_beside(double depths, double thickness) {
+  const double more = std::max(0., more_leaning * (thickness - least_thickness));
+  return 1 + more * std::clamp((not_leaning_more - depths) / (not_leaning_more - leaning_more), 0., 1.);
+}
 
 /// By how much further than the bottom of a cut there another cut's field moves the skin along `n`, mm: as
 /// the shear of the tissue tells it, with which the sides of the cut turn up and down.
@@ -73,7 +83,9 @@ double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, d
     for (int i = 0; i < layers; ++i)
       sum += cut.depth / layers * shear(v, -cut.depth * (i + 0.5) / layers) / 2;
   }
-  return sum * std::min(1., std::abs(at.uvw.y) / (lean_fades * cut.depth));
+  const double away = std::abs(at.uvw.y), depth = other.depth(at.s);
+  return leaning_beside(away / depth, other.skin_thickness() / depth) * sum *
+         std::min(1., away / (lean_fades * cut.depth));
 }
 
 /// How far a complete cut alone opens across, mm.

@@ -47,6 +47,16 @@ struct Wound {
   /// has stopped short of that.
   double felt() const { return incision->is_short_of_end() ? reached() : complete(); }
 
+  /// mm, at s mm of the path.
+  double depth(double s) const { return incision->path().depth(s / scale()) * scale(); }
+
+  /// mm; the usual one where the field does not record it.
+  double skin_thickness() const {
+    constexpr double usual = 1.5;
+    const auto& parameters = field.shape().parameters;
+    return parameters.value_or(parameters->skin.thickness, usual);
+  }
+
   /// Whether the cut begins in the wound of an earlier one, and leads away from it; or ends there. Where a
   /// path ends that is found as the blade goes is not known before.
   bool opens_into(const Wound& earlier, bool at_end) const {

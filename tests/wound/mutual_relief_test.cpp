@@ -99,8 +99,11 @@ class TwoCuts {
 
 TEST(Leaning, IsWithTheShearOfTheOtherCutAndNoneOfFieldsThatDoNotOpen) {
   const Field opens = parabolic_field(3), closes = parabolic_field(-2);
-  for (const Field* field : {&opens, &closes}) {
-    const TwoCuts two(*field, -4, *field, 4);
+  // 8 mm apart, and 4, a depth and a third, where they lean more beside a shallow cut.
+  for (const auto& [field, apart, leaning] : {std::tuple{&opens, 8., 1.2},
+                                              {&closes, 8., 1.2},
+                                              {&opens, 4., 1.2 * (1 + 0.95 * (thickness / 3 - 0.3))}}) {
+    const TwoCuts two(*field, -apart / 2, *field, apart / 2);
     const std::vector<Amplitude> found = two.amplitudes();
     for (std::size_t k = 0; k < found[0].stations.size(); ++k) {
       const double s = found[0].stations[k], u = canonical.start + s;
@@ -109,7 +112,7 @@ TEST(Leaning, IsWithTheShearOfTheOtherCutAndNoneOfFieldsThatDoNotOpen) {
       const double toward_end = std::min(1., std::sqrt(std::min(s, 30 - s) / (0.6 * canonical.depth)));
       // The second cut is at v > 0 of the first: there lips sink.
       const double expected =
-          opening > 0 ? 1.2 * toward_end * shear_of(*field, u, -8) * found[1].at(s) / opening : 0;
+          opening > 0 ? leaning * toward_end * shear_of(*field, u, -apart) * found[1].at(s) / opening : 0;
       EXPECT_NEAR(found[0].leans[k], std::max(-1., expected), 0.01 * std::abs(expected)) << s;
       EXPECT_NEAR(found[1].leans[k], -found[0].leans[k], 1e-6) << s;
     }
