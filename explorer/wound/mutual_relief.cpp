@@ -44,7 +44,7 @@ constexpr double reach = 0.5;
 const double gauss = 1 / std::numbers::sqrt3;
 /// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross. Of that, so
 /// far from the crossing along a cut its corners are, and ends what keeps them from parting.
-constexpr double lean_fades = 0.05, corner_part = 0.5, parts_within = 2;
+constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
 /// Depths to either side of where another cut opens into this one, over which what its field does not move of
 /// the lips is linear: the lip beyond is whole there.
 constexpr double mouth_reach = 0.5;
