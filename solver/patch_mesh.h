@@ -90,18 +90,18 @@ struct PatchMesh : WedgeCells {
 };
 
 /// The surface of every cut coincides with element faces, and its ends and its bottom lie just inside nodes
-/// (params/meshed_cut.h). Elements are at most
-/// mesh.element_size long within the cut (an arc: along it), between parallel cuts and along a branch; away
-/// from them they grow by mesh.grading. Under a tilted blade they are shorter along the cut, and narrower
-/// next to its lips. The mesh is made for a cut of mesh.cut_length by mesh.cut_depth if these are given; a
-/// branch has its own length always, and leaves toward +v where u = 0: its nodes on the first cut have three
-/// copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with u > 0). Nodes move in
-/// v only onto a curved or tilted cut, and the patch stays a box; then a patch that is_shaped gets its shape
-/// (solver/shaped_mesh.h). An upright straight cut's triangles are mirrored in v = 0 (several cuts: where the
-/// squares between them are even in number); those of a chess board (diagonal_rises) in u = 0 too where the
-/// squares along u are even in number. Throws InputError if moving the nodes would flatten an element. With
-/// quadratic elements all this is said of them: nodes lie in the middle between their lines too, and an
-/// element's squares are halved by one diagonal.
+/// (params/meshed_cut.h). Elements are at most mesh.element_size long within the cut (an arc: along it),
+/// between parallel cuts and along a branch; away from them they grow by mesh.grading. Under a tilted blade
+/// they are shorter along the cut, and narrower next to its lips. The mesh is made for a cut of
+/// mesh.cut_length by mesh.cut_depth if these are given; a branch has its own length always, and leaves
+/// toward +v where u = 0: its nodes on the first cut have three copies, in the pairs (left, right with u <
+/// 0) and then (right with u < 0, right with u > 0). Nodes move in v only onto a curved or tilted cut, and
+/// the patch stays a box; then a patch that is_shaped gets its shape (solver/shaped_mesh.h). An upright
+/// straight cut's triangles are mirrored in v = 0 (several cuts: where the squares between them are even in
+/// number); those of a chess board (diagonal_rises) in u = 0 too where the squares along u are even in
+/// number. Throws InputError if moving the nodes would flatten an element. With quadratic elements all this
+/// is said of them: nodes lie in the middle between their lines too, and an element's squares are halved by
+/// one diagonal.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
 /// By node: whether it is in the middle of a quadratic element's upright face, and has no unknowns.

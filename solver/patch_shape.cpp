@@ -98,22 +98,18 @@ FramedCurve::Place FramedCurve::operator()(double s) const {
                       cubic(a.b, da.b, b.b, db.b, h, part), cubic(a.n, da.n, b.n, db.n, h, part)});
 }
 
-/// The fall has the integral fall (1 - back) / 2, the rise at the end -back fall / 2.
-TurnAndBack::TurnAndBack(double core, double fall, double back)
-    : core_(core),
-      fall_(fall),
-      back_(back),
-      plateau_(std::max(0., (core + fall * (1 - back) / 2) / back - fall / 2)),
-      end_(core_ + 2 * fall_ + plateau_) {}
+/// The fall has the integral 0, the rise at the end -fall / 2.
+TurnAndBack::TurnAndBack(double core)
+    : core_(core), fall_(core / 2), plateau_(core - fall_ / 2), end_(core_ + 2 * fall_ + plateau_) {}
 
 double TurnAndBack::operator()(double s) const {
   s = std::abs(s);
   if (s <= core_) return 1;
   if (s >= end_) return 0;
   const auto cosine = [&](double from) { return std::cos(std::numbers::pi * (s - from) / fall_); };
-  if (s < core_ + fall_) return (1 - back_) / 2 + (1 + back_) / 2 * cosine(core_);
-  if (s <= core_ + fall_ + plateau_) return -back_;
-  return -back_ / 2 * (1 + cosine(core_ + fall_ + plateau_));
+  if (s < core_ + fall_) return cosine(core_);
+  if (s <= core_ + fall_ + plateau_) return -1;
+  return -0.5 * (1 + cosine(core_ + fall_ + plateau_));
 }
 
 BendAndBack::BendAndBack(const Parameters& p)
@@ -163,8 +159,8 @@ PatchShape::PatchShape(const Parameters& p)
       height_(p.patch.height),
       cut_depth_(meshed_cut(p).depth),
       bend_(p),
-      along_turn_(core_of(p), core_of(p) / 2, 1),
-      across_turn_(core_across(p), core_across(p) / 2, 1),
+      along_turn_(core_of(p)),
+      across_turn_(core_across(p)),
       path_([bend = bend_](double s) { return FramedCurve::Rates{.bend = bend(s)}; }, bend_.reach()),
       spine_([k = p.skin.curvature_u, twist = p.skin.curvature_uv, turn = along_turn_](
                  double s) { return FramedCurve::Rates{.normal = k * turn(s), .twist = twist}; },

@@ -42,18 +42,19 @@ class FramedCurve {
 };
 
 /// A curvature of 1 in the middle, which then changes its sign and turns what it has turned back: from `core`
-/// on it falls to -`back` like a cosine, remains there, and rises to 0. Its integral over either half is 0.
+/// on it falls to -1 over half of that like a cosine, remains there, and rises to 0. Its integral over either
+/// half is 0.
 class TurnAndBack {
  public:
-  TurnAndBack(double core, double fall, double back);
+  explicit TurnAndBack(double core);  ///< mm
   double operator()(double s) const;
   double reach() const { return end_; }  ///< 0 from there on, mm
 
  private:
-  double core_, fall_, back_, plateau_, end_;
+  double core_, fall_, plateau_, end_;
 };
 
-/// The curvature of a curved cut's path through its patch. Beyond the ends of the cut it goes on for 2 mm,
+/// The curvature of a curved cut's path through its patch. Beyond the ends of the cut it goes on for 1 mm,
 /// and then each side turns back what it has turned: from what it is there, like a cosine, to as much on the
 /// other side as takes about as long as the cut's half, and back to 0.
 class BendAndBack {

@@ -82,17 +82,17 @@ CornerLean lean_at(const Crossing& crossing, double straight_side, bool at_end,
   const Vector own_half = in_skin(own.between_lips) / 2,
                other_half = crossing.toward * in_skin(other.between_lips) / 2,
                other_ray = -crossing.toward * in_skin(other.frame.along).normalized();  // to v > 0
-  const auto& [right_angle, with_depth, with_cosine] = straight_side == 0 ? at_crossings : at_mouths;
-  const double of_right_angle =
-      right_angle * std::pow(depth / cuts[crossing.cut]->skin_thickness(), with_depth);
-  const double straight_lip = (of_right_angle - with_cosine) * own_half.y();
+  const Rises& rises = straight_side == 0 ? at_crossings : at_mouths;
+  const double thickness = cuts[crossing.cut]->skin_thickness(),
+               of_right_angle = rises.right_angle * std::pow(depth / thickness, rises.with_depth),
+               straight_lip = (of_right_angle - rises.with_cosine) * own_half.y();
   // Of the piece before (-1) or behind (1) the other cut, and at v < 0 (-1) or v > 0 (1).
-  const auto height = [&, with_cosine = with_cosine](double behind, double side) {
+  const auto height = [&](double behind, double side) {
     if (side == straight_side) return straight_lip;
     const Vector along(behind, 0), other_edge = side * other_ray,
                                    drawn_back = side * own_half + behind * other_half;
     const double cosine = along.dot(other_edge);
-    return (of_right_angle + with_cosine * cosine) * drawn_back.dot((along + other_edge).normalized());
+    return (of_right_angle + rises.with_cosine * cosine) * drawn_back.dot((along + other_edge).normalized());
   };
   result.before = (height(-1, 1) - height(-1, -1)) / own.across_alone;
   result.after = (height(1, 1) - height(1, -1)) / own.across_alone;

@@ -29,10 +29,11 @@ constexpr double least_step = 1e-9;
 /// How far lips lean in all, over how far the other cut shears the tissue above the bottom: of simulated
 /// parallel cuts 10 to 60 mm long, 3 and 5 mm deep and 4 to 20 mm apart, in tissue of 0.008 to 0.05 MPa.
 constexpr double leaning = 1.2;
-/// Beside the other cut lips lean by so many times more of the skin's thickness over the depth, beyond the
-/// least one: up to so many depths from it, and no further than to others. Of simulated parallel cuts 4 mm
-/// apart, and cuts that cross, 2, 3 and 5 mm deep.
-constexpr double more_leaning = 0.95, least_thickness = 0.3, leaning_more = 4. / 3, not_leaning_more = 2.5;
+/// Next to a shallow cut lips lean more, by so many times what the skin's thickness over the cut's depth is
+/// above the least one. That counts in full up to so many depths from the cut, and falls to nothing at so
+/// many. Of simulated parallel cuts 4 mm apart, and cuts that cross, 2, 3 and 5 mm deep.
+constexpr double more_leaning = 0.95, least_thickness = 0.3, leans_more_to = 4. / 3,
+                 leans_as_others_from = 2.5;
 /// Depths of the cut: what lips lean falls to nothing over so much before an end, and by e so far from them.
 constexpr double leans_fully = 0.6, leaning_reach = 2. / 3;
 /// The shear is summed over parts of the cut's depth, each taken in its middle, and is the mean at two Gauss
@@ -50,12 +51,6 @@ constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
 constexpr double mouth_reach = 0.5;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
-
-/// How much more lips lean so many depths from a cut, in skin of this thickness over the depth.
-double leaning_beside(double depths, double thickness) {
-  const double more = std::max(0., more_leaning * (thickness - least_thickness));
-  return 1 + more * std::clamp((not_leaning_more - depths) / (not_leaning_more - leaning_more), 0., 1.);
-}
 
 /// By how much further than the bottom of a cut there another cut's field moves the skin along `n`, mm: as
 /// the shear of the tissue tells it, with which the sides of the cut turn up and down.
@@ -83,9 +78,7 @@ double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, d
     for (int i = 0; i < layers; ++i)
       sum += cut.depth / layers * shear(v, -cut.depth * (i + 0.5) / layers) / 2;
   }
-  const double away = std::abs(at.uvw.y), depth = other.depth(at.s);
-  return leaning_beside(away / depth, other.skin_thickness() / depth) * sum *
-         std::min(1., away / (lean_fades * cut.depth));
+  return sum * std::min(1., std::abs(at.uvw.y) / (lean_fades * cut.depth));
 }
 
 /// How far a complete cut alone opens across, mm.
@@ -107,6 +100,14 @@ double leaning_at(double s, const Wound& wound, double opening) {
   if (!wound.volume.mouth(false)) from_end = s;
   if (!wound.volume.mouth(true)) from_end = std::min(from_end, wound.complete() - s);
   return leaning / opening * std::sqrt(std::clamp(from_end / (leans_fully * cut.depth), 0., 1.));
+}
+
+/// How many times as far lips lean at a place beside another cut as further away from it.
+double more_beside(const Wound& other, const ActiveVertex& at) {
+  const double depth = other.depth(at.s), depths = std::abs(at.uvw.y) / depth;
+  const double more = std::max(0., more_leaning * (other.skin_thickness() / depth - least_thickness));
+  return 1 +
+         more * std::clamp((leans_as_others_from - depths) / (leans_as_others_from - leans_more_to), 0., 1.);
 }
 
 }  // namespace
@@ -184,7 +185,7 @@ namespace {
 class AtStations {
  public:
   explicit AtStations(const std::vector<const Wound*>& cuts)
-      : cuts_(cuts), crossings_(crossings_of(cuts)), alone_(cuts.size()), leaning_(cuts.size()) {
+      : cuts_(cuts), crossings_(crossings_of(cuts)), alone_(cuts.size()) {
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       const Wound& cut = *cuts[i];
       Amplitude& own = alone_[i];
@@ -192,11 +193,12 @@ class AtStations {
         if (!own.stations.empty() && s <= own.stations.back()) continue;
         const std::size_t station = own.stations.size();
         const double opening = opening_at(s, cut);
-        own.stations.push_back(s), leaning_[i].push_back(leaning_at(s, cut, opening));
+        own.stations.push_back(s);
         if (!lips) {
           between_.emplace_back(i, station);
           continue;
         }
+        const double leaning = leaning_at(s, cut, opening);
         const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
         for (std::size_t j = 0; j < cuts.size(); ++j) {
           if (j == i) continue;
@@ -206,7 +208,7 @@ class AtStations {
             if (const auto right = cuts[j]->volume.locate(lips->second))
               parted_.push_back({i, j, station, at->s, opening, *at, *right});
           const bool complete = j + 1 < cuts.size();
-          places_.push_back({i, j, station, at->s,
+          places_.push_back({i, j, station, at->s, leaning * more_beside(*cuts[j], *at),
                              complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
                              normal});
         }
@@ -260,8 +262,9 @@ class AtStations {
   /// A station of a cut in the volume of another one.
   struct Place {
     std::size_t cut, by, station;
-    double s;      // mm, along the other's path
-    double shear;  // mm, of the other one where it is complete
+    double s;        // mm, along the other's path
+    double leaning;  // for each mm of shear
+    double shear;    // mm, of the other one where it is complete
     ActiveVertex at;
     Vec3 normal;  // across the own path
   };
@@ -341,7 +344,7 @@ class AtStations {
                                ? place.shear
                                : shear_across(*cuts_[place.by], place.at, place.normal, blade);
       double& lean = result[place.cut].leans[place.station];
-      lean += leaning_[place.cut][place.station] * shear * std::min(most, in_membrane[place.by].at(place.s));
+      lean += place.leaning * shear * std::min(most, in_membrane[place.by].at(place.s));
       lean = std::clamp(lean, -most_lean, most_lean);
     }
   }
@@ -432,7 +435,6 @@ class AtStations {
   std::vector<Parted> parted_;
   std::vector<Mouth> mouths_;
   std::vector<std::pair<std::size_t, std::size_t>> between_;  // a cut, and a station of it without lips
-  std::vector<std::vector<double>> leaning_;                  // at the stations
 };
 
 }  // namespace

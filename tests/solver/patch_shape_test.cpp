@@ -180,13 +180,13 @@ TEST(PatchShape, DepthIsAlongTheNormalAndTensionAlongTheImageOfTheFirstAxis) {
 TEST(PatchShape, TwistedPatchesDoNotFold) {
   Parameters p;
   p.cut.length = 36, p.mesh.element_size = 2, p.skin.curvature_uv = 1 / 60.;
-  for (double* other :
-       {&p.skin.curvature_u, &p.skin.curvature_v, &p.cut.curvature, &p.cut.curvature_rate, &p.cut.tilt})
-    for (const double way : {-1., 1.}) {
-      *other = way * (other == &p.cut.tilt             ? 45
-                      : other == &p.cut.curvature      ? 1 / 15.
-                      : other == &p.cut.curvature_rate ? 0.005
-                                                       : 1 / 30.);
+  for (const auto& [other, most] : {std::pair{&p.skin.curvature_u, 1 / 30.},
+                                    {&p.skin.curvature_v, 1 / 30.},
+                                    {&p.cut.curvature, 1 / 15.},
+                                    {&p.cut.curvature_rate, 0.005},
+                                    {&p.cut.tilt, 45.}})
+    for (const double value : {-most, most}) {
+      *other = value;
       EXPECT_NO_THROW(make_patch_mesh(p));
       *other = 0;
     }
