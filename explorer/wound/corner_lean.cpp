@@ -19,10 +19,10 @@ struct Rises {
 /// Of simulated crossings at 30, 45, 60 and 75 degrees, pulled 1 : 3 and alike, with cuts 2, 3 and 5 mm deep,
 /// in tissue of 0.008, 0.02 and 0.05 MPa, which makes no difference.
 constexpr Rises at_crossings{0.43, 0.27, 0.15};
-/// Of simulated branches at 45, 60 and 90 degrees.
-constexpr Rises at_mouths{0.357, 0.36, 0.13};
+/// Of simulated branches at 45, 60, 75 and 90 degrees, with cuts 2, 3 and 5 mm deep.
+constexpr Rises at_mouths{0.48, 0, 0.15};
 /// Depths of the cut along it.
-constexpr double corner_reach = 2. / 3;
+constexpr double corner_reach = 2. / 3, reach_at_mouths = 0.38;
 /// Depths that a cut goes beyond a crossing where its corners are free.
 constexpr double freed = 1;
 
@@ -74,7 +74,7 @@ CornerLean lean_at(const Crossing& crossing, double straight_side, bool at_end,
   const double depth =
       std::min(cuts[crossing.cut]->depth(crossing.s), cuts[crossing.other]->depth(crossing.other_s));
   CornerLean result{0, 0, std::clamp(std::min(own.beyond, other.beyond) / (freed * depth), 0., 1.),
-                    corner_reach * depth};
+                    (straight_side == 0 ? corner_reach : reach_at_mouths) * depth};
   if (!(own.across_alone > 0) || result.share == 0) return {0, 0, 0, result.reach};
   const auto in_skin = [&](const Vec3& x) {
     return Vector(dot(x, own.frame.along), dot(x, own.frame.across));

@@ -54,6 +54,20 @@ std::array<double, 3> fourth_derivatives(const std::array<double, 4>& f, double 
   return {f[3], (g3 + g2) / (r * r), 3 * g2 / (r * r)};
 }
 
+/// exp(-rate r) and the like, and its share.
+struct Decay {
+  double rate, share;
+};
+
+/// 1 / (w^2 + k (1 + more w^2 / (w^2 + q))) as shares of 1 / (w^2 + rate^2).
+std::array<Decay, 2> two_decays(double k, double more, double q) {
+  // Of a quadratic in the squares of the rates: their sum and their product.
+  const double sum = q + k * (1 + more), product = k * q, root = std::sqrt(sum * sum / 4 - product);
+  const double less = product / (sum / 2 + root), greater = sum / 2 + root;
+  return {{{std::sqrt(less), (q - less) / (greater - less)},
+           {std::sqrt(greater), (greater - q) / (greater - less)}}};
+}
+
 /// The stress of an edge dislocation with a jump along each axis, in a sheet without springs, at a place.
 std::array<Tensor, 2> dislocation_stress(const Vector& at, double factor) {
   const double x = at.x(), y = at.y(), r4 = at.squaredNorm() * at.squaredNorm();
@@ -66,17 +80,27 @@ std::array<Tensor, 2> dislocation_stress(const Vector& at, double factor) {
 
 }  // namespace
 
-CutMembrane::CutMembrane(double reach, double poisson_ratio) : reach_(reach) {
+CutMembrane::CutMembrane(double reach, double poisson_ratio, const Springs& springs) : reach_(reach) {
   const IsotropicSheet sheet(1, poisson_ratio);
   shear_ = sheet.modulus * (1 - poisson_ratio) / 2, lame_ = sheet.modulus * poisson_ratio;
-  // Lengths in the reach: k1 is 1.
-  const double stiff = lame_ + 2 * shear_, k2 = std::sqrt(stiff / shear_), soft = shear_ / stiff;
+  // Lengths in the reach: k over the modulus of the waves that dilate is 1.
+  const double stiff = lame_ + 2 * shear_, soft = shear_ / stiff, q = 1 / (springs.length * springs.length);
+  const auto dilating = two_decays(1, springs.dilating, q),
+             shearing = two_decays(1 / soft, springs.shearing, q);
   std::vector<Derivatives> table;
   for (int i = 0; i <= places; ++i) {
     const double r = nearest * std::exp(i * log_step);
-    const auto transverse = bessel_derivatives(k2, r), longitudinal = bessel_derivatives(1, r);
-    std::array<double, 4> both;
-    for (int n = 0; n < 4; ++n) both[n] = (transverse[n] - longitudinal[n]) / (k2 * k2);
+    std::array<double, 4> transverse{}, both{};
+    for (int n = 0; n < 2; ++n) {
+      const Decay &shears = shearing[n], &dilates = dilating[n];
+      const auto by_shear = bessel_derivatives(shears.rate, r),
+                 by_dilation = bessel_derivatives(dilates.rate, r);
+      for (int d = 0; d < 4; ++d) {
+        transverse[d] += shears.share * by_shear[d];
+        both[d] += shears.share / (shears.rate * shears.rate) * by_shear[d] -
+                   soft * dilates.share / (dilates.rate * dilates.rate) * by_dilation[d];
+      }
+    }
     // Without springs: -log r, and -(1 - soft) / 4 r^2 log r.
     const double c = -(1 - soft) / 4, log_r = std::log(r);
     const std::array<double, 4> unheld = {-1 / r, 1 / (r * r), 0, 0},

@@ -13,19 +13,14 @@ namespace {
 
 /// Pieces of a cut as long as the canonical one, and of a cut: the ratio of two openings needs fewer than
 /// they do.
-constexpr int own_pieces = 24, most_pieces = 72, fewest_pieces = 6;
+constexpr int own_pieces = 30, most_pieces = 90, fewest_pieces = 8;
 /// In reaches of the membrane: displacements beside a cut are as good as 0 there.
 constexpr double farthest = 4;
 /// Of the cosine between two normals: with less, the skin has turned away.
 constexpr double turned_away = 0.1;
-/// The reach in which cuts feel each other, over that with which one opens: apart, so that openings of two,
-/// three and four simulated parallel cuts, 2 to 20 mm apart, are off by 0.01; and of cuts that touch others,
-/// so that where two cross at 45 and 60 degrees they are off by 0.02, at 30 by 0.06.
-constexpr double reach_apart = 5. / 6, reach_touching = 7. / 6;
-/// How far lips slide on each other over how far they do in the membrane, of simulated cuts that cross or lie
-/// at angles. Under shear the default field opens 1.3 times as far as under as much tension across, the
-/// membrane 1.5 to 1.7 times.
-constexpr double slides = 0.93;
+/// The reach in which cuts that do not touch feel each other, over that with which one opens: so openings of
+/// simulated parallel cuts, 4 to 10 mm apart, are off by 0.01, with the same reach by 0.02.
+constexpr double reach_apart = 0.85;
 /// In pieces: cuts that are nearer to each other touch, and pieces end there. And pieces are longer.
 constexpr double touching = 0.25, shortest_piece = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
@@ -41,7 +36,7 @@ double canonical_piece(const Wound& wound) { return wound.field.shape().cut().le
 }  // namespace
 
 std::vector<double> touched_at(const Wound& cut, const Wound& other) {
-  constexpr int samples_a_piece = 2, rounds = 20;
+  constexpr int samples_a_piece = 2, rounds = 30;
   const ScalpelPath &path = cut.incision->path(), &other_path = other.incision->path();
   const double length = cut.complete(), other_end = other.complete() / other.scale();
   const int samples = std::max(2, static_cast<int>(samples_a_piece * length / canonical_piece(cut)));
@@ -236,7 +231,7 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
     const bool opens = alone(i + 1) > least_opening * largest;
     const double value = opens ? std::max(0., opened(i + 1) / alone(i + 1)) : 1;
     result.values.push_back(value);
-    result.shifts.push_back(opens ? slides * (opened(i) - value * alone(i)) / alone(i + 1) : 0);
+    result.shifts.push_back(opens ? (opened(i) - value * alone(i)) / alone(i + 1) : 0);
   }
   // Ahead of the blade as at its tip. The skin between two cuts that open into it moves along it as a whole.
   result.values.resize(cut.pieces.size(), result.values.empty() ? ahead : result.values.back());
@@ -278,6 +273,9 @@ class Together {
           if (const auto at = wounds[i]->mouth_of(*wounds[j], at_end)) cuts_.back().mouths.push_back(*at);
       first.push_back(first.back() + cuts_.back().rows());
     }
+    const auto between = [&](bool in_contact) {
+      return in_contact ? membrane : membrane.with_reach(reach_apart * membrane.reach());
+    };
     const Eigen::Index complete = first[cuts_.size() - 1], last = cuts_.back().rows();
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(first.back(), first.back());
     Eigen::VectorXd tractions(first.back());
@@ -285,11 +283,8 @@ class Together {
       tractions.segment(first[i], cuts_[i].rows()) = tractions_on(*wounds[i], cuts_[i]);
       for (std::size_t j = 0; j < cuts_.size(); ++j)
         all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) =
-            taken(membrane.with_reach((touch[i][j] ? reach_touching : reach_apart) * membrane.reach()),
-                  cuts_[i], cuts_[j]);
-      shown_.emplace_back(
-          membrane.with_reach((touch[i][i] ? reach_touching : reach_apart) * membrane.reach()), *wounds[i],
-          cuts_[i]);
+            taken(between(touch[i][j]), cuts_[i], cuts_[j]);
+      shown_.emplace_back(between(touch[i][i]), *wounds[i], cuts_[i]);
       if (i + 1 < cuts_.size()) {
         alone_.push_back(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
                              .partialPivLu()

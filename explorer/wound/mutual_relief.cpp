@@ -49,6 +49,9 @@ constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
 /// Depths to either side of where another cut opens into this one, over which what its field does not move of
 /// the lips is linear: the lip beyond is whole there.
 constexpr double mouth_reach = 0.5;
+/// The cosine of how far a corner beside a mouth turns away from the cut that opens there, where that no
+/// longer shears it: of simulated branches at 45 and 60 degrees.
+constexpr double obtuse = 0.7;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
 
@@ -161,9 +164,9 @@ void BesideCut::keep_with_own_piece(const ActiveVertex& vertex, std::size_t cut,
                         : in_other->side == Side::right ? 1
                         : in_other->uvw.y < 0           ? -1
                                                         : 1;
-    // Both cuts part the corners: of what lips lean further away half is due to each.
-    const double own = crossing.toward * side, far = std::max(own * from, corner_part * crossing.fades);
-    s += (1 - away) * (own * far - from);
+    // Both cuts part the corners: half of how far these are apart is due to each. Along a lip the part of the
+    // other cut falls as that of its own grows.
+    s += (1 - away) * corner_part * crossing.toward * side * crossing.fades;
   }
 }
 
@@ -202,15 +205,25 @@ class AtStations {
         const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
         for (std::size_t j = 0; j < cuts.size(); ++j) {
           if (j == i) continue;
-          const std::optional<ActiveVertex> at = cuts[j]->volume.locate(lips->first);
-          if (!at) continue;
-          if (opens_into(*cuts[j], cut) && opening > 0)
-            if (const auto right = cuts[j]->volume.locate(lips->second))
-              parted_.push_back({i, j, station, at->s, opening, *at, *right});
-          const bool complete = j + 1 < cuts.size();
-          places_.push_back({i, j, station, at->s, leaning * more_beside(*cuts[j], *at),
-                             complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
-                             normal});
+          const IncisionVolume::Mouth* mouth = mouth_between(*cuts[j], cut);
+          const std::optional<ActiveVertex> left = cuts[j]->volume.locate(lips->first),
+                                            right = cuts[j]->volume.locate(lips->second);
+          if (left && right && mouth && opening > 0)
+            parted_.push_back({i, j, station, left->s, opening, *left, *right});
+          const auto add = [&](const std::optional<ActiveVertex>& at, double part) {
+            if (!at || part == 0) return;
+            const bool complete = j + 1 < cuts.size();
+            places_.push_back({i, j, station, at->s, part * leaning * more_beside(*cuts[j], *at),
+                               complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
+                               normal});
+          };
+          if (!mouth) {
+            add(left, 1);
+            continue;
+          }
+          const double beside = beside_branch(cut, s, *cuts[j]);
+          add(mouth->right ? right : left, beside);
+          add(mouth->right ? left : right, 1 - beside);
         }
       }
       for (std::size_t j = 0; j < cuts.size(); ++j)
@@ -285,11 +298,30 @@ class AtStations {
     std::size_t first, last;
   };
 
-  static bool opens_into(const Wound& later, const Wound& cut) {
-    return std::ranges::any_of(std::array{false, true}, [&](bool at_end) {
-      const auto& mouth = later.volume.mouth(at_end);
-      return mouth && mouth->earlier == cut.incision;
-    });
+  /// Null unless the later cut begins or ends in the other one.
+  static const IncisionVolume::Mouth* mouth_between(const Wound& later, const Wound& cut) {
+    for (const bool at_end : {false, true})
+      if (const auto& mouth = later.volume.mouth(at_end); mouth && mouth->earlier == cut.incision)
+        return &*mouth;
+    return nullptr;
+  }
+
+  /// Which part of the shear that a later cut leaves along the one in which it begins or ends is that on its
+  /// own side: all where its wall is next to that cut's, none where it is beyond an obtuse corner.
+  static double beside_branch(const Wound& cut, double s, const Wound& later) {
+    double part = 1;
+    for (const bool at_end : {false, true}) {
+      const std::optional<double> mouth = cut.mouth_of(later, at_end);
+      if (!mouth) continue;
+      const auto place = [&](double at) { return cut.incision->path().at(at / cut.scale()).position; };
+      const Vec3 way = place(s) - place(*mouth);
+      const double distance = norm(way);
+      if (!(distance > 0)) continue;
+      const Vec3& along = later.volume.skin_frame(later.volume.mouth(at_end)->s / later.scale()).along;
+      const double cosine = (at_end ? -1 : 1) * dot(way, along) / distance;
+      part = std::min(part, std::clamp(1 + cosine / obtuse, 0., 1.));
+    }
+    return part;
   }
 
   /// mm of a cut to either side of where another one opens into it.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/incision/meshes.h"
@@ -119,6 +120,33 @@ TEST(Leaning, IsWithTheShearOfTheOtherCutAndNoneOfFieldsThatDoNotOpen) {
     if (field == &opens) EXPECT_LT(found[0](15).lean, -0.1);
     if (field == &closes) EXPECT_EQ(found[0](15).lean, 0);
   }
+}
+
+/// A cut that leaves another one to its left leans its lips as one that leaves it to its right.
+TEST(Leaning, IsAlikeBesideBranchesToBothSides) {
+  const Field field = parabolic_field(3);
+  std::array<Amplitude, 2> found;
+  for (const int side : {0, 1}) {
+    CutMesh mesh{grid(40, 30, -40.3, -30.1, 2)};
+    const double up_or_down = side == 0 ? 1 : -1;
+    IncisionOptions options;
+    options.max_edge = 0;
+    Incision main(mesh, path_through({{-15, 0, 0}, {15, 0, 0}}, up, 3), options);
+    main.advance_to(30);
+    Incision branch(mesh, path_through({{-0.05, -0.1 * up_or_down, 0}, {6, 12 * up_or_down, 0}}, up, 3),
+                    options);
+    branch.advance_to(branch.path().length());
+    Wound of_main(main, field, 1), of_branch(branch, field, 1);
+    ASSERT_TRUE(of_branch.opens_into(of_main, false));
+    of_branch.volume.opens_into(main, false);
+    found[side] = mutual_relief({&of_main, &of_branch}, {branch.path().length()}).front()[0];
+  }
+  double largest = 0;
+  for (double s = 1; s < 30; s += 1) {
+    largest = std::max(largest, std::abs(found[0](s).lean));
+    EXPECT_NEAR(found[1](s).lean, -found[0](s).lean, 0.01) << s;
+  }
+  EXPECT_GT(largest, 0.1);
 }
 
 TEST(Leaning, MovesLipsUprightAndAlongTheCutInProportionToTheirDisplacementAcross) {
