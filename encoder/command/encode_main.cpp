@@ -160,7 +160,7 @@ void write_encoded(const std::string& out, const std::vector<Encoded>& all, std:
     write_pieces(out, all, nodes);
 }
 
-constexpr double most_kept = 4e8;      // bytes of matrices that several snapshots share
+constexpr double most_kept = 1e9;      // bytes of matrices that several snapshots share
 constexpr double share_of_kept = 0.1;  // of the memory that may be used
 
 /// Of each piece of a body, the first series of its places, without its values, and what was computed for it.

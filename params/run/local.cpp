@@ -18,6 +18,7 @@
 #include "params/run/run_table.h"
 #include "params/run/signal_handler.h"
 #include "params/run/solve_groups.h"
+#include "params/stiffness.h"
 
 namespace cleft {
 
@@ -166,15 +167,20 @@ class LocalRun {
     return task.kind != Task::none;
   }
 
-  /// The next case, and those after it that are small too, as far as other workers have as many.
+  /// The next case, and those after it that are small too, or have its mesh, and so the matrices of its fit;
+  /// as far as other workers have as many, or have cases to solve.
   void take_to_encode(Task& task) {
     task.kind = Task::encode;
     const auto may_be_with_first = [&](const CaseOnItsWay& one) {
       const Case& first = *task.cases.front()->one;
-      return is_small(first) && is_small(*one.one) && one.one->encode.arguments() == first.encode.arguments();
+      return one.one->encode.arguments() == first.encode.arguments() &&
+             ((is_small(first) && is_small(*one.one)) ||
+              stiffness_key(first.parameters) == stiffness_key(one.one->parameters));
     };
     const std::size_t workers = static_cast<std::size_t>(options_.jobs),
-                      most = std::min(encode_together, (to_encode_.size() + workers - 1) / workers);
+                      share =
+                          groups_.empty() ? (to_encode_.size() + workers - 1) / workers : to_encode_.size(),
+                      most = std::min(encode_together, share);
     do {
       task.cases.push_back(std::move(to_encode_.front()));
       to_encode_.pop_front();
