@@ -93,13 +93,15 @@ class StudyReader {
   }
 
   void read_section(const std::string& key, const toml::node& node) {
-    static const std::vector<std::string> known = {"name",   "keep_snapshots", "pack_error", "sensitivities",
-                                                   "case",   "vary",           "body",       "sampling",
-                                                   "encode", "slurm"};
+    static const std::vector<std::string> known = {
+        "name", "keep_snapshots", "error_estimates", "pack_error", "sensitivities", "case",
+        "vary", "body",           "sampling",        "encode",     "slurm"};
     if (key == "name") {
       mistakes_.collect([&] { study_.name = text(node, "name"); });
     } else if (key == "keep_snapshots") {
-      mistakes_.collect([&] { read_keep_snapshots(text(node, key)); });
+      mistakes_.collect([&] { study_.keep_snapshots = all_or_none(node, key); });
+    } else if (key == "error_estimates") {
+      mistakes_.collect([&] { study_.estimate_errors = all_or_none(node, key); });
     } else if (key == "pack_error") {
       mistakes_.collect([&] { study_.pack_error = pack_error(node); });
     } else if (key == "sensitivities") {
@@ -130,10 +132,11 @@ class StudyReader {
     return result;
   }
 
-  void read_keep_snapshots(const std::string& which) {
+  bool all_or_none(const toml::node& node, const std::string& key) const {
+    const std::string which = text(node, key);
     if (which != "all" && which != "none")
-      throw InputError(path_ + ": keep_snapshots = \"" + which + "\": must be \"all\" or \"none\"");
-    study_.keep_snapshots = which == "all";
+      throw InputError(path_ + ": " + key + " = \"" + which + "\": must be \"all\" or \"none\"");
+    return which == "all";
   }
 
   double pack_error(const toml::node& node) const {

@@ -102,8 +102,9 @@ void check_sbatch_option(const std::string& option, const std::string& where);
 
 struct Study {
   std::string name = "study";
-  bool keep_snapshots = true;  ///< keep_snapshots = "all"; "none" drops each once its field is published
-  double pack_error = 0;       ///< of study.dffd at the end of a run, as cleft pack --modes; 0: none
+  bool keep_snapshots = true;   ///< keep_snapshots = "all"; "none" drops each once its field is published
+  double pack_error = 0;        ///< of study.dffd at the end of a run, as cleft pack --modes; 0: none
+  bool estimate_errors = true;  ///< of mesh and patch, by coarser ones; "none": as cleft solve --no-estimate
   SlurmSettings slurm;
   Case base;
   std::vector<std::string> given;  ///< names of the parameters that [case] sets

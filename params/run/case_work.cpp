@@ -196,6 +196,7 @@ void CaseWork::solve_together(const std::vector<CaseOnItsWay*>& cases) const {
     arguments.push_back(group + "/" + one->hash + ".toml");
   }
   arguments.insert(arguments.end(), {"--out", group, "--json"});
+  if (!study_.estimate_errors) arguments.push_back("--no-estimate");
   const ProcessResult result = child("solve", arguments, first, "solve");
   const std::string log = text_of(first.file("solve.log"));
   if (was_killed(result)) throw failure_of("solve", result, log);

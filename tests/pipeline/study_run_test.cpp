@@ -278,6 +278,25 @@ TEST(StudyRun, WithoutItsSnapshotsIsSound) {
   EXPECT_NE(exported.output.find("keep_snapshots"), std::string::npos) << exported.output;
 }
 
+TEST(StudyRun, EstimatesNoErrorsWhereItSaysSo) {
+  const TemporaryFolder place;
+  for (const char* which : {"all", "none"}) {
+    const std::string file = place.write("study.toml",
+                                         std::string("error_estimates = '") + which + "'\n" + study),
+                      out = place / which;
+    expect_success(run_cleft("run", {file, "--out", out}));
+    const std::string one = out + "/cases/" + std::string(status(out)["cases"][0]["case"]);
+    const std::string manifest = read_text_file(one + "/manifest.json");
+    EXPECT_EQ(manifest.find("expected_gape_error\"") != std::string::npos, std::string(which) == "all");
+  }
+  const Outcome refused = run_cleft(
+      "run",
+      {place.write("study.toml", std::string("error_estimates = 'some'\n") + study), "--out", place / "x"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.output.find("error_estimates = \"some\": must be \"all\" or \"none\""), std::string::npos)
+      << refused.output;
+}
+
 TEST(StudyRun, ItsFileHasFewerBytesWhereItSaysSo) {
   const TemporaryFolder place;
   const std::string file = place.write("study.toml", std::string("pack_error = 0.02\n") + study),
