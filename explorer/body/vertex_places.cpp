@@ -245,7 +245,9 @@ class Locator {
       std::vector<int> sides[2];
       for (const int t : skin) sides[dot(middle(t) - at(v), across) > 0].push_back(t);
       const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
-      for (const int side : {0, 1}) add(v, sides[side], skin_, share, x, (side ? aside : -aside) * across);
+      for (const int side : {0, 1})
+        add(v, sides[side], skin_, share, x,
+            is_beside_another(v, skin) ? to_middle(v, sides[side]) : (side ? aside : -aside) * across);
     } else if (vertex.kind != VertexKind::skin && !skin.empty()) {
       int start = start_of(v);
       if (start < 0) start = start_beside(skin);
@@ -263,6 +265,15 @@ class Locator {
         wall_[side][v] =
             add(v, *triangles, walls_, share, x, to_middle(v, *triangles), start_on_wall(side, *triangles));
     }
+  }
+
+  /// Whether the skin around the end of a cut has a lip of another cut, as where it ends just beyond that.
+  bool is_beside_another(int v, const std::vector<int>& skin) const {
+    return std::ranges::any_of(skin, [&](int t) {
+      return std::ranges::any_of(mesh_.triangle(t).vertex, [&](int w) {
+        return mesh_.vertex(w).kind != VertexKind::skin && mesh_.vertex(w).cut != mesh_.vertex(v).cut;
+      });
+    });
   }
 
   /// The walls below a lip are where its node is: not one that stays closed, which both walls have.

@@ -54,7 +54,7 @@ std::array<double, 3> fourth_derivatives(const std::array<double, 4>& f, double 
   return {f[3], (g3 + g2) / (r * r), 3 * g2 / (r * r)};
 }
 
-/// exp(-rate r) and the like, and its share.
+/// A solution that falls as exp(-rate r), and its share.
 struct Decay {
   double rate, share;
 };

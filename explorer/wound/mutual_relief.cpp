@@ -205,11 +205,6 @@ class AtStations {
         const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
         for (std::size_t j = 0; j < cuts.size(); ++j) {
           if (j == i) continue;
-          const IncisionVolume::Mouth* mouth = mouth_between(*cuts[j], cut);
-          const std::optional<ActiveVertex> left = cuts[j]->volume.locate(lips->first),
-                                            right = cuts[j]->volume.locate(lips->second);
-          if (left && right && mouth && opening > 0)
-            parted_.push_back({i, j, station, left->s, opening, *left, *right});
           const auto add = [&](const std::optional<ActiveVertex>& at, double part) {
             if (!at || part == 0) return;
             const bool complete = j + 1 < cuts.size();
@@ -217,10 +212,15 @@ class AtStations {
                                complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
                                normal});
           };
+          const std::optional<ActiveVertex> left = cuts[j]->volume.locate(lips->first);
+          const IncisionVolume::Mouth* mouth = mouth_between(*cuts[j], cut);
           if (!mouth) {
             add(left, 1);
             continue;
           }
+          const std::optional<ActiveVertex> right = cuts[j]->volume.locate(lips->second);
+          if (left && right && opening > 0)
+            parted_.push_back({i, j, station, left->s, opening, *left, *right});
           const double beside = beside_branch(cut, s, *cuts[j]);
           add(mouth->right ? right : left, beside);
           add(mouth->right ? left : right, 1 - beside);

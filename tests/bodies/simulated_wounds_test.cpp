@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <utility>
@@ -226,6 +227,24 @@ TEST(SimulatedWounds, VerticesStayWithTheirPieceOfSkin) {
       EXPECT_TRUE(turned_triangles(*s.mesh, now).empty()) << seed;
       EXPECT_LT(longest_edge(*s.mesh, now), 2) << seed;
     }
+}
+
+/// A branch is led just over the cut that it leaves: the skin there stays with that beside it.
+TEST(SimulatedWounds, WhatABranchCutsBeyondAnotherCutStaysWithItsSkin) {
+  for (const double angle : {60., 90., 120.}) {
+    const double x = std::cos(angle * std::numbers::pi / 180), y = std::sin(angle * std::numbers::pi / 180);
+    Simulated s(testing::flat, {along, {{-0.01 * x, -0.01 * y}, {5 * x, 5 * y}}});
+    const SimulatedWounds wounds = s.wounds(s.request.skin);
+    const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+    int beyond = 0;
+    for (int v = 0; v < static_cast<int>(now.size()); ++v) {
+      const Vec3 at = s.mesh->position(v);
+      if (s.mesh->vertex(v).cut != 1 || at.y > -1e-6) continue;
+      EXPECT_LT(now[v].y, at.y) << angle << ": " << at.x << ", " << at.y << ", " << at.z;
+      ++beyond;
+    }
+    EXPECT_GT(beyond, 0) << angle;
+  }
 }
 
 /// Where a path crosses itself, at any angle and place of a mesh of any triangles, each of the four corners

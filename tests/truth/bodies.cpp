@@ -116,7 +116,7 @@ Off off_of(const CutSkin& skin, std::span<const Vec3> replayed, std::span<const 
   for (std::size_t k = 0; k < skin.cuts.size(); ++k)
     for (const auto& c : skin.cuts[k]->chain()) {
       const ScalpelPath& path = skin.cuts[k]->path();
-      const double s = skin.mesh.vertex(c.left).s;
+      const double s = c.s;
       const Vec3 in_simulation = simulated[c.right] - simulated[c.left],
                  in_replay = replayed[c.right] - replayed[c.left];
       const PathFrame frame = path.at(s);
