@@ -178,6 +178,9 @@ Surroundings::Surroundings(const CutMesh& mesh, const ScalpelPath& path, const s
   };
   front.spread(triangles_of);
   front.find_irregular(triangles_of);
+  for (std::size_t v = 0; v < labels_.size(); ++v)  // walls of earlier cuts are below their lips
+    if (mesh.vertex(static_cast<int>(v)).depth > 0)
+      labels_[v] = of_parents(mesh, static_cast<int>(v), labels_);
 }
 
 /// Those beyond the last one so far.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -319,6 +320,34 @@ TEST(MembraneRelief, CornersOfACrossingDoNotPartBeforeTheBladeHasPassed) {
     EXPECT_LT(parted(crossing.other_s - way), 1e-6) << way << " mm before";
   EXPECT_GT(parted(crossing.other_s + 1), 0.003);
   EXPECT_GT(parted(crossing.other_s + 3), 2 * parted(crossing.other_s + 1));
+}
+
+/// A later cut moves the walls of an earlier one as the lips above them: it moved the lips alone.
+TEST(MembraneRelief, WallsOfACutAreBesideALaterOneAsTheirLipsAre) {
+  const Field field = ellipses();
+  Made made;
+  const std::vector<Wound> opened =
+      made.open(turning(field), {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 10, 10.1)});
+  const IncisionVolume& later = opened[1].volume;
+  std::map<std::pair<double, Side>, int> lip;  // of the first cut, by s
+  for (const auto& c : made.cuts[0]->chain())
+    lip[{c.s, Side::left}] = c.left, lip[{c.s, Side::right}] = c.right;
+  int compared = 0;
+  const auto count = static_cast<int>(made.mesh.vertices().size());
+  for (int v = 0; v < count; ++v) {
+    const CutMesh::Vertex& vertex = made.mesh.vertex(v);
+    const auto above = lip.find({vertex.s, side_of(vertex.kind)});
+    if (vertex.cut != made.cuts[0]->cut() || !(vertex.depth > 0) || above == lip.end()) continue;
+    const auto wall = later.locate(v), top = later.locate(above->second);
+    ASSERT_EQ(wall.has_value(), top.has_value()) << vertex.s;
+    if (!wall || std::abs(vertex.position.x) < 0.2) continue;  // corners are on both sides
+    EXPECT_EQ(wall->side, top->side) << vertex.s;
+    EXPECT_NEAR(wall->uvw.x, top->uvw.x, 1e-9);
+    EXPECT_NEAR(wall->uvw.y, top->uvw.y, 1e-9);
+    EXPECT_NEAR(wall->uvw.z, -vertex.depth, 1e-9);
+    ++compared;
+  }
+  EXPECT_GT(compared, 100);
 }
 
 /// A vertex is bounded by what all of them move it by, whichever cuts cross an earlier one when.
