@@ -6,6 +6,7 @@
 #include <queue>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "explorer/incision/incision_tolerances.h"
 #include "explorer/incision/path_trace.h"
@@ -178,9 +179,17 @@ Surroundings::Surroundings(const CutMesh& mesh, const ScalpelPath& path, const s
   };
   front.spread(triangles_of);
   front.find_irregular(triangles_of);
-  for (std::size_t v = 0; v < labels_.size(); ++v)  // walls of earlier cuts are below their lips
-    if (mesh.vertex(static_cast<int>(v)).depth > 0)
-      labels_[v] = of_parents(mesh, static_cast<int>(v), labels_);
+  for (int v = 0; v < static_cast<int>(labels_.size()); ++v)
+    if (mesh.vertex(v).depth > 0) walls_.push_back(v);
+  label_walls(mesh);
+}
+
+/// Walls are where the lips above them are.
+void Surroundings::label_walls(const CutMesh& mesh) {
+  for (const int v : walls_) {  // parents come first
+    const Label before = std::exchange(labels_[v], of_parents(mesh, v, labels_));
+    if (labels_[v] != before) relabelled_.push_back(v);
+  }
 }
 
 /// Those beyond the last one so far.
@@ -247,6 +256,7 @@ void Surroundings::extend(const CutMesh& mesh, const ScalpelPath& path, double f
   for (int v = before; v < now; ++v)
     if (!labels_[v].reached) labels_[v] = of_parents(mesh, v, labels_);
   relabelled_.insert(relabelled_.end(), reached_.begin(), reached_.end());
+  label_walls(mesh);
   for (int v = before; v < now; ++v) relabelled_.push_back(v);
   std::sort(relabelled_.begin(), relabelled_.end());
   relabelled_.erase(std::unique(relabelled_.begin(), relabelled_.end()), relabelled_.end());

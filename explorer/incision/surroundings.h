@@ -45,6 +45,7 @@ class Surroundings {
     float s = 0;             ///< of the nearest place of the path
     Side side = Side::both;  ///< from which it is reached; both: it is on the path of the blade
     bool reached = false;
+    bool operator==(const Label&) const = default;
   };
   /// Labels of the vertices that existed before the cut, or when the path was extended.
   const std::vector<Label>& labels() const { return labels_; }
@@ -62,11 +63,13 @@ class Surroundings {
   class Front;
   void keep_until(double from);
   void add_stations(std::vector<Station> stations);
+  void label_walls(const CutMesh& mesh);
 
   std::vector<Station> stations_;
   std::vector<Irregular> irregular_;
   std::vector<Label> labels_;
   std::vector<int> reached_, relabelled_;  // by the last search; see relabelled()
+  std::vector<int> walls_;                 // vertices of earlier cuts below their lips
   double reach_ = 0;
 };
 
