@@ -245,9 +245,10 @@ class Locator {
       std::vector<int> sides[2];
       for (const int t : skin) sides[dot(middle(t) - at(v), across) > 0].push_back(t);
       const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
+      const bool beside_another = is_beside_another(v, skin);
       for (const int side : {0, 1})
         add(v, sides[side], skin_, share, x,
-            is_beside_another(v, skin) ? to_middle(v, sides[side]) : (side ? aside : -aside) * across);
+            beside_another ? to_middle(v, sides[side]) : (side ? aside : -aside) * across);
     } else if (vertex.kind != VertexKind::skin && !skin.empty()) {
       int start = start_of(v);
       if (start < 0) start = start_beside(skin);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace cleft {
 
@@ -23,6 +24,9 @@ constexpr Rises at_crossings{0.43, 0.27, 0.15};
 constexpr Rises at_mouths{0.48, 0, 0.15};
 /// Depths of the cut along it.
 constexpr double corner_reach = 2. / 3, reach_at_mouths = 0.38;
+/// The cosine of how far a corner beside a mouth turns away from the cut that opens there, where that no
+/// longer shears it: of simulated branches at 45 and 60 degrees.
+constexpr double obtuse = 0.7;
 /// Depths that a cut goes beyond a crossing where its corners are free.
 constexpr double freed = 1;
 
@@ -115,6 +119,22 @@ CornerLean lean_at_mouth(std::size_t cut, double s, std::size_t later, bool at_e
                           s,   at_end ? mouth.s - mouth.opens_on : mouth.opens_on,
                           0,   at_end ? from_right : -from_right};
   return lean_at(crossing, -from_right, at_end, cuts, blade, in_membrane);
+}
+
+double beside_branch(const Wound& cut, double s, const Wound& later) {
+  double part = 1;
+  for (const bool at_end : {false, true}) {
+    const std::optional<double> mouth = cut.mouth_of(later, at_end);
+    if (!mouth) continue;
+    const auto place = [&](double at) { return cut.incision->path().at(at / cut.scale()).position; };
+    const Vec3 way = place(s) - place(*mouth);
+    const double distance = norm(way);
+    if (!(distance > 0)) continue;
+    const Vec3& along = later.volume.skin_frame(later.volume.mouth(at_end)->s / later.scale()).along;
+    const double cosine = (at_end ? -1 : 1) * dot(way, along) / distance;
+    part = std::min(part, std::clamp(1 + cosine / obtuse, 0., 1.));
+  }
+  return part;
 }
 
 }  // namespace cleft

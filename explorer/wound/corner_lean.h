@@ -27,4 +27,9 @@ CornerLean lean_at_mouth(std::size_t cut, double s, std::size_t later, bool at_e
                          const std::vector<const Wound*>& cuts, double blade,
                          const std::vector<Amplitude>& in_membrane);
 
+/// Where cut `later` opens into `cut`, it shears the tissue on its own side of it: which part of the shear at
+/// s mm of the path of `cut` is taken from there, and not from the other side. All is where the walls of both
+/// are next to each other, none beyond an obtuse corner.
+double beside_branch(const Wound& cut, double s, const Wound& later);
+
 }  // namespace cleft

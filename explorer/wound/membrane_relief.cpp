@@ -12,7 +12,7 @@ namespace cleft {
 namespace {
 
 /// Pieces of a cut as long as the canonical one, and of a cut: the ratio of two openings needs fewer than
-/// they do.
+/// they do. With shorter ones corners of a crossing part so steeply that the guard holds cuts back.
 constexpr int own_pieces = 30, most_pieces = 90, fewest_pieces = 8;
 /// In reaches of the membrane: displacements beside a cut are as good as 0 there.
 constexpr double farthest = 4;
@@ -36,7 +36,7 @@ double canonical_piece(const Wound& wound) { return wound.field.shape().cut().le
 }  // namespace
 
 std::vector<double> touched_at(const Wound& cut, const Wound& other) {
-  constexpr int samples_a_piece = 2, rounds = 30;
+  constexpr int samples_a_piece = 2, rounds = 20;
   const ScalpelPath &path = cut.incision->path(), &other_path = other.incision->path();
   const double length = cut.complete(), other_end = other.complete() / other.scale();
   const int samples = std::max(2, static_cast<int>(samples_a_piece * length / canonical_piece(cut)));

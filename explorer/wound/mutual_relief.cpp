@@ -1,7 +1,6 @@
 #include "explorer/wound/mutual_relief.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -49,9 +48,6 @@ constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
 /// Depths to either side of where another cut opens into this one, over which what its field does not move of
 /// the lips is linear: the lip beyond is whole there.
 constexpr double mouth_reach = 0.5;
-/// The cosine of how far a corner beside a mouth turns away from the cut that opens there, where that no
-/// longer shears it: of simulated branches at 45 and 60 degrees.
-constexpr double obtuse = 0.7;
 /// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
 constexpr double turned_away = 0.1;
 
@@ -304,24 +300,6 @@ class AtStations {
       if (const auto& mouth = later.volume.mouth(at_end); mouth && mouth->earlier == cut.incision)
         return &*mouth;
     return nullptr;
-  }
-
-  /// Which part of the shear that a later cut leaves along the one in which it begins or ends is that on its
-  /// own side: all where its wall is next to that cut's, none where it is beyond an obtuse corner.
-  static double beside_branch(const Wound& cut, double s, const Wound& later) {
-    double part = 1;
-    for (const bool at_end : {false, true}) {
-      const std::optional<double> mouth = cut.mouth_of(later, at_end);
-      if (!mouth) continue;
-      const auto place = [&](double at) { return cut.incision->path().at(at / cut.scale()).position; };
-      const Vec3 way = place(s) - place(*mouth);
-      const double distance = norm(way);
-      if (!(distance > 0)) continue;
-      const Vec3& along = later.volume.skin_frame(later.volume.mouth(at_end)->s / later.scale()).along;
-      const double cosine = (at_end ? -1 : 1) * dot(way, along) / distance;
-      part = std::min(part, std::clamp(1 + cosine / obtuse, 0., 1.));
-    }
-    return part;
   }
 
   /// mm of a cut to either side of where another one opens into it.

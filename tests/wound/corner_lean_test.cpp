@@ -130,7 +130,7 @@ TEST(CornerLean, IsNoneAtARightAngleAndNoneBeforeTheCornersAreFree) {
   const auto share = [&](double blade) { return slant.corners({0.3, 4.6}, {0.9, 1}, blade).share; };
   EXPECT_EQ(share(half - 1), 0);  // the blade is before the crossing
   EXPECT_NEAR(share(half + 1.5), 0.5, 1e-4);
-  EXPECT_EQ(share(half + 3.01), 1);  // it is more than a depth behind
+  EXPECT_EQ(share(half + 3), 1);  // it is a depth behind
 }
 
 TEST(CornerLean, FallsByEOverTwoThirdsOfTheDepth) {
