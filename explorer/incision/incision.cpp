@@ -164,6 +164,17 @@ void Incision::extend(const ScalpelPath::Point& next, double ahead) {
   cut_on_to(*state_, extended_to_);
 }
 
+void Incision::end_path() {
+  if (!(extended_to_ > 0)) return;
+  mesh_.forget_changes();
+  path_ = path_.until(left_mesh() ? extended_to_ : tip());
+  extended_to_ = 0;
+  state_->drop_provisional();  // what lay ahead of it was another path
+  state_->next.reset();
+  if (reach_ > 0 && !left_mesh()) surroundings_.extend(mesh_, path_, tip(), reach_, triangle_ahead(*state_));
+  cut_on_to(*state_, path_.length());
+}
+
 void Incision::undo() {
   CLEFT_CHECK(undone_.has_value(), ==, false);
   mesh_.forget_changes();

@@ -58,6 +58,9 @@ class Incision {
   void extend(const ScalpelPath::Point& next, double ahead);
   /// Arc length up to which the path was extended; beyond it the path is straight.
   double extended_to() const { return extended_to_; }
+  /// Ends a path that was extended where the blade is: from then on it is one that was known in advance, and
+  /// extended_to() is 0. Has no effect on others.
+  void end_path();
 
   /// Undoes and redoes the whole cut, including refinement: both bit for bit.
   void undo();

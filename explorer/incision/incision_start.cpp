@@ -66,7 +66,7 @@ std::optional<PathStep> start_on_boundary(const IncisionState& cut, double reach
 /// Where the start is on a wound, it is on the lip that the path leads away from.
 PathStep on_its_lip(const IncisionState& cut, PathStep start) {
   if (start.kind == PathStep::vertex && cut.mesh.on_wound(start.index)) {
-    const int v = lip_ahead(cut, start.index, start.s);
+    const int v = lip_ahead(cut, start.index, start.s, cut.path.length());
     if (v >= 0) start.index = v;
   }
   if (start.kind != PathStep::edge) return start;

@@ -163,7 +163,7 @@ bool too_soon_at_wound(const IncisionState& cut, const PathStep& step) {
 }
 
 bool go_on_from_wound(IncisionState& cut) {
-  cut.tip.from = lip_ahead(cut, cut.chain.back().left, cut.chain.back().s);
+  cut.tip.from = lip_ahead(cut, cut.chain.back().left, cut.chain.back().s, cut.path.length());
   return cut.tip.from >= 0;
 }
 
@@ -175,22 +175,25 @@ bool go_on_from_wound(IncisionState& cut) {
 
 }  // namespace
 
-int lip_ahead(const IncisionState& cut, int wound_vertex, double s) {
+int lip_ahead(const IncisionState& cut, int wound_vertex, double s, double limit) {
   const std::vector<int> places = on_the_same_place(cut.mesh, wound_vertex);
   for (const double part : Limits::steps_over_wound)
     for (const int v : places) {
       if (cut.mesh.triangle(cut.mesh.vertex(v).triangle).region != Region::skin) continue;
       const std::vector<int> fan = cut.mesh.skin_fan(v);
       const double ahead = s + part * mean_spoke(cut.mesh, fan, v);
-      if (ahead <= cut.path.length() && pierced(cut.mesh, fan, cut.path.at(ahead)) >= 0) return v;
+      if (ahead <= limit && pierced(cut.mesh, fan, cut.path.at(ahead)) >= 0) return v;
     }
   return -1;
 }
 
-/// That the path enters from the tip; -1: none.
 int triangle_ahead(const IncisionState& cut) {
-  const std::vector<int> fan = cut.mesh.skin_fan(cut.tip_vertex());
-  return entered(cut, fan, mean_spoke(cut.mesh, fan, cut.tip_vertex()), cut.path.length()).triangle;
+  constexpr double beyond_end = std::numeric_limits<double>::infinity();
+  const bool in_wound = cut.tip.arrived && cut.tip.from < 0;
+  const int tip = in_wound ? lip_ahead(cut, cut.tip_vertex(), cut.tip_s(), beyond_end) : cut.tip_vertex();
+  if (tip < 0) return -1;
+  const std::vector<int> fan = cut.mesh.skin_fan(tip);
+  return entered(cut, fan, mean_spoke(cut.mesh, fan, tip), beyond_end).triangle;
 }
 
 const PathStep& next_step(IncisionState& cut) {

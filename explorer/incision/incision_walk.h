@@ -13,12 +13,13 @@ const PathStep& next_step(IncisionState& cut);
 /// The part of a step that leads no farther than to arc length `to`.
 PathStep shorter(const IncisionState& cut, const PathStep& step, double to);
 
-/// The triangle that the path enters from the tip; -1: none.
+/// The triangle that the path, straight on beyond its end, enters from the tip, or from the opposite lip of a
+/// wound that it has come to; -1: none.
 int triangle_ahead(const IncisionState& cut);
 
 /// Of the skin's vertices at the place of a wound's vertex, one on each lip, that from which the path goes on
-/// from s; -1: none.
-int lip_ahead(const IncisionState& cut, int wound_vertex, double s);
+/// from s, within `limit`; -1: none.
+int lip_ahead(const IncisionState& cut, int wound_vertex, double s, double limit);
 
 /// Whether two wounds cross at a vertex.
 bool wounds_cross_at(const IncisionState& cut, int v);

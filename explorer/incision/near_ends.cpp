@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace cleft {
 
@@ -42,6 +41,20 @@ ScalpelPath with_end_moved(const ScalpelPath& path, bool start, double way) {
 }
 
 }  // namespace
+
+std::optional<double> way_over(const ScalpelPath& path, bool start, const ScalpelPath& other, double near,
+                               double beyond) {
+  const PathFrame end = path.at(start ? 0 : path.length());
+  const Vec3 on = start ? -1. * end.along : end.along;
+  const PathCoordinates from = other.coordinates(end.position),
+                        to = other.coordinates(end.position + near * on);
+  if (from.v * to.v >= 0) return std::nullopt;
+  const double approach = std::abs(to.v - from.v) / near, way = std::abs(from.v) / approach;
+  const PathCoordinates there = other.coordinates(end.position + way * on);
+  if (approach < least_approach || there.s < 0 || there.s > other.length() || std::abs(there.w) > near)
+    return std::nullopt;
+  return way + beyond / approach;
+}
 
 JoinedPaths with_near_ends_joined(std::vector<ScalpelPath> paths, double near) {
   JoinedPaths joined{std::move(paths), {}};

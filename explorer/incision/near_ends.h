@@ -1,6 +1,7 @@
 // Ends of cuts that all but meet another cut.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "explorer/incision/scalpel_path.h"
@@ -22,6 +23,11 @@ struct JoinedPaths {
   std::vector<ScalpelPath> paths;
   std::vector<JoinedEnd> ends;  ///< that were not on them
 };
+
+/// How far an end of a path has to go straight on to be `beyond` over the other path, if that is no farther
+/// ahead than `near`; none where it is not there, or the end runs beside it. In the paths' units.
+std::optional<double> way_over(const ScalpelPath& path, bool start, const ScalpelPath& other, double near,
+                               double beyond);
 
 /// `near`: the widest bridge, in the paths' units, as the gap in the result.
 JoinedPaths with_near_ends_joined(std::vector<ScalpelPath> paths, double near);

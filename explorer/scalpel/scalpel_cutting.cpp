@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "explorer/incision/near_ends.h"
 
 namespace cleft {
 
@@ -22,6 +23,8 @@ constexpr double least_depth = 0.5;    // mm, of a cut as deep as the scalpel is
 constexpr double least_upright = 0.2;
 /// How much of its deviation from the way so far the path takes up in one piece.
 constexpr double taken_up = 0.5;
+/// mm: a cut that ends, or begins, so near to the wound of another one comes to it, and so far over its path.
+constexpr double next_to = 1, over_wound = 0.01;
 constexpr std::size_t most_entering = 2000;  // vertices that a cut begins to move in a step
 constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
 constexpr double far = 30;  // mm, how far ahead a cut without a field is taken to go
@@ -168,6 +171,7 @@ void ScalpelCutting::follow_scalpel(const HapticState& scalpel) {
 void ScalpelCutting::end_cut() {
   cutting_ = false;
   entered_.reset();
+  end_path();
 }
 
 void ScalpelCutting::cut_at(const ScalpelPath::Point& place) {
@@ -209,7 +213,49 @@ void ScalpelCutting::extend(ScalpelPath::Point next) {
   free_cuts_.back().push_back(next);
 }
 
-void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next) {
+/// How far an end of a path has to go straight on into the wound of one of the first `earlier` cuts that is
+/// next to it: between the last place of a path that is found and the lip the blade has moved on by less than
+/// a piece.
+std::optional<double> ScalpelCutting::way_into_wound(const ScalpelPath& path, bool start,
+                                                     std::size_t earlier) const {
+  std::optional<double> least;
+  for (std::size_t k = 0; k < earlier; ++k) {
+    const auto way = way_over(path, start, cuts_[k]->path().until(cuts_[k]->tip()), next_to / setup_.scale,
+                              over_wound / setup_.scale);
+    if (way && (!least || *way < *least)) least = way;
+  }
+  return least;
+}
+
+/// The path of the newest cut is known when the blade has left it.
+void ScalpelCutting::end_path() {
+  if (free_cuts_.empty() || cutting_ || !(incision()->extended_to() > 0)) return;
+  Incision& incision = *cuts_.back();
+  const ScalpelPath way = incision.path().until(incision.extended_to());
+  if (const auto on = way_into_wound(way, false, cuts_.size() - 1)) {
+    const PathFrame end = way.at(way.length());
+    const ScalpelPath::Point last{end.position + *on * end.along, end.outward, way.depth(way.length())};
+    cut([&] { incision.extend(last, next_to / setup_.scale); });
+    free_cuts_.back().push_back(last);
+  }
+  cut([&] { incision.end_path(); });
+  opens_anew_ = setup_.fields.has_value();
+}
+
+void ScalpelCutting::open_anew() {
+  if (!std::exchange(opens_anew_, false)) return;
+  const std::vector<int> moved = wounds_.replays().back().entered();
+  wounds_.reopen_newest(setup_.fields->wound(*incision(), setup_.scale));
+  tell(moved);
+  tell_touched();
+}
+
+void ScalpelCutting::begin_cut(ScalpelPath::Point first, const ScalpelPath::Point& next) {
+  end_path();
+  open_anew();
+  const ScalpelPath straight({first, next});
+  if (const auto back = way_into_wound(straight, true, cuts_.size()))
+    first.position -= *back * straight.at(0).along;
   const double length = (setup_.fields ? setup_.fields->shape().cut().length : far) / setup_.scale;
   ScalpelPath::Point end = next;
   end.position = first.position + length * normalized(next.position - first.position);
@@ -272,9 +318,11 @@ void ScalpelCutting::collect_changes() {
 
 void ScalpelCutting::open() {
   ++figures_.steps;
+  end_path();
   surface_->prepare();
   if (wounds_.empty()) return;
   Stopwatch watch;
+  open_anew();
   if (!finder_.busy()) {  // else nothing has changed since it began
     wounds_.move_to_tips();
     tell_touched();

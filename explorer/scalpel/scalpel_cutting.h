@@ -79,6 +79,8 @@ class ScalpelCutting {
   /// Cuts to a place of a blade without force feedback, on the skin at rest, mesh units, from the previous
   /// one.
   void cut_at(const ScalpelPath::Point& place);
+  /// The blade leaves the cut: its path is known now, and with the next step it opens as it would have if it
+  /// had been known before. One that ends next to a wound is led into it.
   void end_cut();
   /// Takes the guard over that is being found, and passes all motion on.
   void settle();
@@ -97,8 +99,11 @@ class ScalpelCutting {
   void follow_path(const HapticState& scalpel, double least);
   void follow_scalpel(const HapticState& scalpel);
   void cut_on_to(const ScalpelPath::Point& at);
-  void begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next);
+  void begin_cut(ScalpelPath::Point first, const ScalpelPath::Point& next);
   void extend(ScalpelPath::Point next);
+  void end_path();
+  void open_anew();
+  std::optional<double> way_into_wound(const ScalpelPath& path, bool start, std::size_t earlier) const;
   bool leads_on(const ScalpelPath::Point& next) const;
   template <class Change>
   void cut(const Change& change);
@@ -121,6 +126,7 @@ class ScalpelCutting {
   std::unique_ptr<ContactSurface> surface_;
   std::optional<ContactReader> reader_;
   bool cutting_ = false;
+  bool opens_anew_ = false;                    // the newest cut: its path is known since the last step
   std::optional<ScalpelPath::Point> entered_;  // the place of the puncture
   std::vector<std::vector<ScalpelPath::Point>> free_cuts_;
   std::vector<Vec3> displacements_;  // mm, of vertices, as in the haptic surface

@@ -1,6 +1,7 @@
 #include "explorer/wound/live_wounds.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -18,6 +19,14 @@ void LiveWounds::add(Wound wound, std::size_t most_entering) {
   replays_.emplace_back(Wounds::add(std::move(wound)), most_entering);
   now_ = relief(size() - 1).at(1);
   if (size() > 1) cross(size() - 1);
+}
+
+void LiveWounds::reopen_newest(Wound wound) {
+  replays_.pop_back();
+  remove_newest();
+  add(std::move(wound), std::numeric_limits<std::size_t>::max());
+  complete_newest();
+  relieved_at_ = 0;
 }
 
 /// The first `count` wounds are complete.

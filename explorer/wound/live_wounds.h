@@ -21,6 +21,8 @@ class LiveWounds : public Wounds {
   void follow_shape(const CutFields& fields) {
     if (!empty()) fields.follow_shape(newest());
   }
+  /// Opens the newest cut, whose path has ended (Incision::end_path), as one whose path was known before.
+  void reopen_newest(Wound wound);
   /// Moves the blade of each wound to its tip.
   void move_to_tips();
   /// Moves the blade of the newest wound to the end of its path.

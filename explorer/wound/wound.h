@@ -58,7 +58,7 @@ struct Wound {
   }
 
   /// Whether the cut begins in the wound of an earlier one, and leads away from it; or ends there. Where a
-  /// path ends that is found as the blade goes is not known before.
+  /// path ends that is found as the blade goes is not known until then.
   bool opens_into(const Wound& earlier, bool at_end) const {
     constexpr double on_wound = 0.1, rounding = 1e-3, least_sine = 0.3;  // depths of the cut
     if (at_end && incision->extended_to() > 0) return false;

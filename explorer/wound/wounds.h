@@ -55,6 +55,7 @@ class Wounds {
   /// it holds.
   Wound& add(Wound wound);
   Wound& newest() { return wounds_.back(); }
+  void remove_newest() { wounds_.pop_back(), relief_.pop_back(); }
   std::vector<const Wound*> first(std::size_t count) const;
   const Relief& relief(std::size_t newest) const { return relief_[newest]; }
   void set_relief(std::size_t newest, Relief relief) { relief_[newest] = std::move(relief); }

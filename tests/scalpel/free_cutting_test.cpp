@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "explorer/scalpel/scalpel_cutting.h"
-#include "explorer/wound/replay.h"
+#include "explorer/wound/replayed_wounds.h"
 #include "tests/haptic/surfaces.h"
 #include "tests/incision/stress/soundness.h"
 #include "tests/wound/family_file.h"
@@ -143,8 +143,30 @@ TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
   }
 }
 
+/// How far apart the skin of the mesh before is under the scalpel and in a replay with the blade at its tip,
+/// mm; and how far it is moved under the scalpel.
+struct Difference {
+  double farthest = 0, moved = 0;
+};
+Difference difference(const ScalpelCutting& cutting, const Replay& replay, const Incision& incision) {
+  std::vector<Vec3> seen(replay.vertex_count());
+  replay.positions(incision.tip(), seen);
+  Difference result;
+  for (int v = 0; v < cutting.original_points(); ++v) {
+    if (incision.mesh().vertex(v).kind != VertexKind::skin ||
+        cutting.mesh().vertex(v).kind != VertexKind::skin ||
+        incision.mesh().position(v) != cutting.mesh().position(v) ||
+        std::abs(incision.path().coordinates(incision.mesh().position(v)).v) > 11)
+      continue;
+    const Vec3 felt = cutting.position(v) - cutting.mesh().position(v);
+    result.farthest = std::max(result.farthest, norm(seen[v] - replay.rest()[v] - felt));
+    result.moved = std::max(result.moved, norm(felt));
+  }
+  return result;
+}
+
 /// A family's field is that of the path's shape as far as the blade has come; its displacements double from a
-/// straight path to this one.
+/// straight path to this one. When the blade has left the skin it is that of the whole path.
 TEST(FreeCutting, AFamilyFollowsTheShapeOfThePath) {
   const SurfaceMesh mesh = ball_on_its_side(54);
   const testing::FamilyFile file({.with_twist = false, .length = 30, .slope = 30});
@@ -152,30 +174,89 @@ TEST(FreeCutting, AFamilyFollowsTheShapeOfThePath) {
   ScalpelCutting cutting(mesh, {{}, {}, fields, 1, 0});
   const ScalpelPath path = over_the_ball(-20, 20, 0, 1.5);  // of a radius of 33 mm
   cut_along(cutting, path, 32);
-  take_out(cutting);
+  while (cutting.figures().waiting > 0) cutting.step(blade(path, 32));
   const double tip = cutting.incision()->tip();
   ASSERT_GT(tip, 30);
-  Incision incision(mesh, cutting.incision()->path());  // all of it known before
-  incision.advance_to(tip);
-  // But not how the path as a whole opens, which is known when it is complete.
-  const Replay replay(fields.growing_wound(incision, 1, 0.99 * tip)),
-      straight(Wound(incision, testing::made({0, 0, 4, 30, 30}, {0.01, 0.03, 0}), 1));
-  std::vector<Vec3> seen(replay.vertex_count()), seen_straight(seen.size());
-  replay.positions(tip, seen), straight.positions(tip, seen_straight);
-  double farthest = 0, moved = 0, from_straight = 0;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (incision.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin ||
-        cutting.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin ||
-        std::abs(incision.path().coordinates(mesh.points[v]).v) > 11)
-      continue;
-    const Vec3 felt = cutting.position(static_cast<int>(v)) - cutting.mesh().position(static_cast<int>(v));
-    farthest = std::max(farthest, norm(seen[v] - replay.rest()[v] - felt));
-    from_straight = std::max(from_straight, norm(seen_straight[v] - replay.rest()[v] - felt));
-    moved = std::max(moved, norm(felt));
-  }
+  Incision grown(mesh, cutting.incision()->path());
+  grown.advance_to(tip);
+  // How the path as a whole opens is known when it is complete.
+  const auto growing = difference(cutting, Replay(fields.growing_wound(grown, 1, 0.99 * tip)), grown),
+             straight = difference(
+                 cutting, Replay(Wound(grown, testing::made({0, 0, 4, 30, 30}, {0.01, 0.03, 0}), 1)), grown);
   // Where the blade has been, the path's curvature is known to 0.007 / mm, half the smoothing behind its tip.
-  EXPECT_LT(farthest, 30 * 0.007 * moved);
-  EXPECT_GT(from_straight, 0.4 * moved);
+  EXPECT_LT(growing.farthest, 30 * 0.007 * growing.moved);
+  EXPECT_GT(straight.farthest, 0.4 * straight.moved);
+
+  take_out(cutting);
+  EXPECT_EQ(cutting.incision()->extended_to(), 0);
+  EXPECT_NEAR(cutting.incision()->path().length(), tip, 1e-9);
+  Incision known(mesh, cutting.incision()->path());  // all of it known before
+  known.advance_to(tip);
+  const auto complete = difference(cutting, Replay(fields.wound(known, 1)), known);
+  EXPECT_LT(complete.farthest, 0.02 * complete.moved);
+  EXPECT_GT(growing.farthest, 0.05 * growing.moved) << "else nothing is tested";
+}
+
+/// The blade's last place, and its first one, are up to a piece of its way beside the wound of another cut.
+TEST(FreeCutting, CutsThatEndOrBeginBesideAWoundComeToIt) {
+  const SurfaceMesh mesh = ball_on_its_side(54);
+  const testing::FamilyFile file({.with_twist = false, .length = 30});
+  const CutFields fields = read_cut_fields(file.file(), SkinTension{{0, 1, 0}, 0.02, 0.02});
+  const auto up_to = [](double from, double to) {  // across the other cut, mm beside it
+    std::vector<ScalpelPath::Point> points;
+    for (int k = 0; k <= 40; ++k) {
+      const double y = (from + (to - from) * k / 40) / radius;
+      points.push_back({radius * Vec3{0, std::sin(y), std::cos(y)}, {0, std::sin(y), std::cos(y)}, depth});
+    }
+    return ScalpelPath(points);
+  };
+  for (const bool begins : {false, true})
+    for (const double gap : {0.6, 2.}) {
+      const bool joins = gap < 1;
+      ScalpelCutting cutting(
+          mesh, {{}, {over_the_ball(-15, 15, 0, 0)}, joins ? std::optional(fields) : std::nullopt, 1, 0});
+      const ScalpelPath path = begins ? up_to(gap, 16) : up_to(16, gap);
+      cut_along(cutting, path, path.length());
+      take_out(cutting);
+      const Incision& branch = *cutting.incision();
+      const auto end = begins ? branch.chain().front() : branch.chain().back();
+      const double beside = branch.mesh().position(end.left).y;
+      if (!joins) {
+        EXPECT_GT(beside, gap - 1) << begins;
+        continue;
+      }
+      EXPECT_NEAR(beside, 0, 0.02) << begins;
+      EXPECT_EQ(cutting.figures().stopped, "") << begins;
+      EXPECT_NEAR((begins ? cutting.free_cuts()[0].front() : cutting.free_cuts()[0].back()).position.y, 0,
+                  0.02);
+      // The corners of its two lips are apart: it is open there.
+      double apart = 0;
+      for (const auto& one : branch.chain())
+        if (std::abs(branch.mesh().position(one.left).y) < 0.3)
+          apart = std::max(apart, norm(cutting.position(one.left) - cutting.position(one.right)));
+      EXPECT_GT(apart, 0.3) << begins;
+
+      CutMesh both(mesh);  // all of the two paths known before
+      std::vector<std::unique_ptr<Incision>> known;
+      for (const ScalpelPath& one : {over_the_ball(-15, 15, 0, 0), branch.path()}) {
+        known.push_back(std::make_unique<Incision>(both, one, IncisionOptions{}));
+        known.back()->advance_to(one.length());
+      }
+      const CutFields same = fields;
+      const ReplayedWounds wounds({same.wound(*known[0], 1), same.wound(*known[1], 1)});
+      std::vector<Vec3> seen(wounds.vertex_count());
+      wounds.positions(wounds.duration(), seen);
+      double farthest = 0, moved = 0;
+      for (int v = 0; v < cutting.original_points(); ++v) {
+        if (both.vertex(v).kind != VertexKind::skin || cutting.mesh().vertex(v).kind != VertexKind::skin ||
+            both.position(v) != cutting.mesh().position(v))
+          continue;
+        farthest = std::max(farthest, norm(seen[v] - cutting.position(v)));
+        moved = std::max(moved, norm(seen[v] - both.position(v)));
+      }
+      EXPECT_LT(farthest, 0.01 * moved) << begins;
+      EXPECT_EQ(stress::Soundness(cutting.mesh()).whole(), "");
+    }
 }
 
 }  // namespace
