@@ -27,13 +27,21 @@ Vec3 up_on_hills(const Vec3& p) {
       {-0.25 * std::cos(p.x / 12) * std::cos(p.y / 15), 0.2 * std::sin(p.x / 12) * std::sin(p.y / 15), 1});
 }
 
-ScalpelPath winding() {
+/// `aside`: mm beside the one over the middle.
+ScalpelPath winding(double aside = 0) {
   std::vector<Vec3> points;
   for (int i = 0; i <= 200; ++i) {
-    const double s = i / 200., x = -30 + 60 * s, y = 8 * std::sin(5 * s);
+    const double s = i / 200., x = -30 + 60 * s, y = aside + 8 * std::sin(5 * s);
     points.push_back({x, y, hill_height(x, y)});
   }
   return testing::path_through(points, up_on_hills, depth);
+}
+
+std::vector<ScalpelPath> earlier_cuts() {
+  constexpr double away = 12;
+  std::vector<Vec3> across;
+  for (int i = 0; i <= 50; ++i) across.push_back({3, -9. + 0.4 * i, hill_height(3, -9. + 0.4 * i)});
+  return {winding(away), winding(-away), testing::path_through(across, up_on_hills, depth)};
 }
 
 /// A thread that does the same work whenever it is told to, while the one that tells waits awake.
@@ -70,8 +78,9 @@ class InTurns {
 /// Of every tick of the cut, nanoseconds.
 class Ticks {
  public:
-  Ticks(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field)
-      : cutting_(mesh, {winding(), {}, CutFields(field), 1, 0}),
+  Ticks(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field, bool beside)
+      : cutting_(mesh,
+                 {winding(), beside ? earlier_cuts() : std::vector<ScalpelPath>{}, CutFields(field), 1, 0}),
         hand_({}, hand_along(winding(), 1, speed, {}, force_)),
         loop_(hand_, cutting_.surface(), force_) {
     times_.reserve(static_cast<std::size_t>(1e3 * hand_.duration()) + 1);
@@ -136,10 +145,10 @@ std::shared_ptr<const Field> field_of_the_cut() {
 }
 
 std::vector<double> ticks_while_cutting(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field,
-                                        int repeats, Schedule schedule) {
+                                        int repeats, Schedule schedule, bool beside) {
   std::vector<double> least;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    Ticks ticks(mesh, field);
+    Ticks ticks(mesh, field, beside);
     const std::vector<double> times =
         schedule == Schedule::in_turns ? ticks.in_turns() : ticks.by_the_clock();
     if (repeat == 0) least = times;

@@ -21,7 +21,8 @@ enum class Schedule { in_turns, by_the_clock };
 /// cuts. What interrupts, other programs and other machines on the same host add falls on other ticks each
 /// time; what a tick itself needs (surface just changed, new cells, what the other core has written) does
 /// not. Throws std::runtime_error where a cut has not as many ticks as the first.
+/// With `beside` two earlier cuts are beside this one, 12 mm away, and a third one crosses it.
 std::vector<double> ticks_while_cutting(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field,
-                                        int repeats, Schedule schedule);
+                                        int repeats, Schedule schedule, bool beside = false);
 
 }  // namespace cleft

@@ -85,5 +85,27 @@ TEST(NearEnds, OthersStayAsTheyAre) {
   EXPECT_EQ(with_near_ends_joined({branch(0.02)}, near).ends.size(), 0U);
 }
 
+TEST(NearEnds, TellHowFarItIsStraightOnOverTheOtherPath) {
+  constexpr double ahead = 1, beyond = 0.01;
+  const auto way = [](const ScalpelPath& path, bool start = false) {
+    return way_over(path, start, along(), ahead, beyond);
+  };
+  for (const double degrees : {90., 60., 150., 20.})
+    for (const double gap : {0.001, 0.1, 0.3}) {
+      const double expected = (gap + beyond) / std::sin(degrees * std::numbers::pi / 180);
+      const ScalpelPath path = branch(gap, degrees);
+      ASSERT_TRUE(way(path).has_value()) << degrees << ' ' << gap;
+      EXPECT_NEAR(*way(path), expected, 1e-6);
+      ASSERT_TRUE(way(turned_round(path), true).has_value());
+      EXPECT_NEAR(*way(turned_round(path), true), expected, 1e-6);
+      EXPECT_FALSE(way(path, true).has_value()) << "its other end is far";
+    }
+  EXPECT_FALSE(way(branch(0.6, 30)).has_value()) << "1.2 mm on";
+  EXPECT_FALSE(way(branch(-0.02)).has_value()) << "it has crossed";
+  EXPECT_FALSE(way(branch(0.02, 5)).has_value()) << "beside it";
+  EXPECT_FALSE(way(branch(0.02, 90, 10.5)).has_value()) << "ahead of the other one's end";
+  EXPECT_FALSE(way(branch(0.02, 270)).has_value()) << "it goes away";
+}
+
 }  // namespace
 }  // namespace cleft
