@@ -160,7 +160,7 @@ void Incision::extend(const ScalpelPath::Point& next, double ahead) {
   if (max_edge_ > 0)
     refine_along(mesh_, path_, tip(), extended_to_ + Limits::growing_ahead_edges * max_edge_, seeds,
                  {height, max_edge_, Limits::growing_band_edges * max_edge_, true});
-  if (reach_ > 0) surroundings_.extend(mesh_, path_, tip(), ahead, triangle_ahead(*state_));
+  if (reach_ > 0) surroundings_.extend(mesh_, path_, tip(), ahead, triangle_ahead(*state_), cut_);
   cut_on_to(*state_, extended_to_);
 }
 
@@ -171,8 +171,11 @@ void Incision::end_path() {
   extended_to_ = 0;
   state_->drop_provisional();  // what lay ahead of it was another path
   state_->next.reset();
-  if (reach_ > 0 && !left_mesh()) surroundings_.extend(mesh_, path_, tip(), reach_, triangle_ahead(*state_));
   cut_on_to(*state_, path_.length());
+}
+
+void Incision::search_again() {
+  if (reach_ > 0) surroundings_.search_again(mesh_, path_, tip(), triangle_ahead(*state_), cut_);
 }
 
 void Incision::undo() {

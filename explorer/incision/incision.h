@@ -61,6 +61,9 @@ class Incision {
   /// Ends a path that was extended where the blade is: from then on it is one that was known in advance, and
   /// extended_to() is 0. Has no effect on others.
   void end_path();
+  /// After end_path(): the surroundings of the whole path, which have been found piece by piece. Changes
+  /// nothing else.
+  void search_again();
 
   /// Undoes and redoes the whole cut, including refinement: both bit for bit.
   void undo();

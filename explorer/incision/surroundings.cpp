@@ -34,12 +34,12 @@ struct Star {
   }
 };
 
-/// The vertices of other lips at the same place: those across a closed wound.
-std::vector<int> across_wound(const CutMesh& mesh, int v) {
+/// The vertices of other lips at the same place: those across a closed wound of another cut than `own`.
+std::vector<int> across_wound(const CutMesh& mesh, int v, int own) {
   std::vector<int> result;
   if (mesh.vertex(v).kind == VertexKind::skin) return result;
   for (const int t : mesh.fan(v))
-    if (mesh.is_wall(t))
+    if (mesh.is_wall(t) && mesh.sheets()[mesh.triangle(t).sheet].cut != own)
       result.push_back(mesh.triangle(mesh.twin(t)).vertex[CutMesh::twin_corner(mesh.triangle(t).corner(v))]);
   return result;
 }
@@ -49,18 +49,36 @@ std::vector<int> across_wound(const CutMesh& mesh, int v) {
 /// Nearest first over the skin (Dijkstra), by lengths across the path.
 class Surroundings::Front {
  public:
-  /// Over vertices beside the path from one place to another.
-  Front(Surroundings& around, const CutMesh& mesh, const ScalpelPath& path, double first, double last)
+  /// Over vertices beside the path from one place to another. `cut`: the path's own number in the mesh.
+  Front(Surroundings& around, const CutMesh& mesh, const ScalpelPath& path, double first, double last,
+        int cut)
       : around_(around),
         mesh_(mesh),
         path_(path),
         first_(first),
         last_(last),
+        cut_(cut),
         known_(mesh.vertices().size()) {}
 
   void begin(const std::vector<PathTrace::Corner>& trace) {
     for (const PathTrace::Corner& c : trace)
       front_.push({std::abs(c.at.v), c.vertex, side_beside(c.at.s, c.at.v)});
+  }
+  void begin(const std::vector<int>& beside) {
+    for (const int v : beside) front_.push({std::abs(known(v).v), v, side_beside(known(v).s, known(v).v)});
+  }
+  /// Beside the lips of the path's own cut, on either side.
+  void begin_beside_lips() {
+    const auto of_own_lip = [&](int v, Side otherwise) {
+      return mesh_.vertex(v).cut == cut_ ? side_of(mesh_.vertex(v).kind) : otherwise;
+    };
+    for (const CutMesh::Triangle& triangle : mesh_.triangles()) {
+      if (triangle.region != Region::skin) continue;
+      for (const int v : triangle.vertex)
+        if (const Side side = of_own_lip(v, Side::both); side != Side::both)
+          for (const int corner : triangle.vertex)
+            front_.push({std::abs(known(corner).v), corner, of_own_lip(corner, side)});
+    }
   }
   /// A way on from a vertex, `distance` from the path, to one beside it.
   void go_on(double distance, int from, int next, Side side) {
@@ -86,11 +104,19 @@ class Surroundings::Front {
       for (const int t : triangles_of(v))
         for (const int next : mesh_.triangle(t).vertex)
           go_on(distance, v, next, on_path ? side_beside(known(v).s, known(next).v) : side);
-      for (const int other : across_wound(mesh_, v))
+      for (const int other : across_wound(mesh_, v, cut_))
         if (!around_.labels_[other].reached) front_.push({distance, other, side});
     }
   }
   double straight(int v) { return std::abs(known(v).v); }
+  /// The side of a vertex whose label is known. Of a lip of the own cut its label tells that of the skin
+  /// before, and where a vertex is reached straight from the path its place tells it: the path may have
+  /// turned.
+  Side known_side(int v) {
+    if (mesh_.vertex(v).cut == cut_) return side_of(mesh_.vertex(v).kind);
+    const Label& label = around_.labels_[v];
+    return label.detour > 0 || label.side == Side::both ? label.side : side_beside(known(v).s, known(v).v);
+  }
 
   /// Those among the vertices that were reached, and their neighbours.
   template <class TrianglesOf>
@@ -104,7 +130,7 @@ class Surroundings::Front {
       };
       for (const int t : triangles_of(v))
         for (const int next : mesh_.triangle(t).vertex) compare(next);
-      for (const int other : across_wound(mesh_, v)) compare(other);
+      for (const int other : across_wound(mesh_, v, cut_)) compare(other);
     }
     std::sort(found.begin(), found.end());
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -154,6 +180,7 @@ class Surroundings::Front {
   const CutMesh& mesh_;
   const ScalpelPath& path_;
   double first_, last_;
+  int cut_;
   std::vector<std::optional<Known>> known_;
   using Entry = std::tuple<double, int, Side>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
@@ -171,7 +198,10 @@ Surroundings::Surroundings(const CutMesh& mesh, const ScalpelPath& path, const s
   if (!seeds.empty()) trace.cover(seeds.front());
   add_stations(std::move(trace.pieces));
   labels_.resize(mesh.vertices().size());
-  Front front(*this, mesh, path, -reach, path.length() + reach);
+  for (const PathTrace::Corner& c : trace.corners)
+    if (c.at.s < 0) before_start_.push_back(c.vertex);
+  constexpr int not_cut_yet = -1;
+  Front front(*this, mesh, path, -reach, path.length() + reach, not_cut_yet);
   front.begin(trace.corners);
   const Star star(mesh);
   const auto triangles_of = [&](int v) {
@@ -233,20 +263,48 @@ void Surroundings::keep_until(double from) {
   reached_.clear();
 }
 
-void Surroundings::extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed) {
-  const auto before = static_cast<int>(labels_.size()), now = static_cast<int>(mesh.vertices().size());
-  keep_until(from);
-  labels_.resize(now);
+/// From the triangle `seed` on.
+std::vector<PathTrace::Corner> Surroundings::trace_on(const CutMesh& mesh, const ScalpelPath& path,
+                                                      double from, double ahead, int seed) {
   PathTrace trace(mesh, path, from - reach_, from + ahead);
   trace.follow(seed, from, true);
   add_stations(std::move(trace.pieces));
-  Front front(*this, mesh, path, from, from + ahead);
-  front.begin(trace.corners);
+  return std::move(trace.corners);
+}
+
+void Surroundings::search_again(const CutMesh& mesh, const ScalpelPath& path, double from, int seed,
+                                int cut) {
+  keep_until(from);
+  irregular_.clear(), reached_.clear(), relabelled_.clear();
+  labels_.assign(mesh.vertices().size(), {});
+  Front front(*this, mesh, path, -reach_, path.length() + reach_, cut);
+  front.begin(trace_on(mesh, path, from, reach_, seed));
+  front.begin(before_start_);
+  front.begin_beside_lips();
+  const Star star(mesh);
+  const auto triangles_of = [&](int v) {
+    return std::span(star.triangles).subspan(star.first[v], star.first[v + 1] - star.first[v]);
+  };
+  front.spread(triangles_of);
+  front.find_irregular(triangles_of);
+  for (int v = 0; v < static_cast<int>(labels_.size()); ++v)  // parents come first
+    if (mesh.vertex(v).depth > 0) labels_[v] = of_parents(mesh, v, labels_);
+}
+
+void Surroundings::extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed,
+                          int cut) {
+  const auto before = static_cast<int>(labels_.size()), now = static_cast<int>(mesh.vertices().size());
+  keep_until(from);
+  labels_.resize(now);
+  const auto corners = trace_on(mesh, path, from, ahead, seed);
+  Front front(*this, mesh, path, from, from + ahead, cut);
+  front.begin(corners);
   const auto begin_from_neighbors = [&](int v) {
     for (const int t : mesh.skin_fan(v))
       for (const int u : mesh.triangle(t).vertex)
-        if (labels_[u].reached && labels_[u].side != Side::both)  // in the blade's way there is no side
-          front.go_on(front.straight(u) + labels_[u].detour, u, v, labels_[u].side);
+        if (labels_[u].reached)
+          if (const Side side = front.known_side(u); side != Side::both)  // none in the blade's way
+            front.go_on(front.straight(u) + labels_[u].detour, u, v, side);
   };
   for (const int v : relabelled_) begin_from_neighbors(v);
   for (int v = before; v < now; ++v)

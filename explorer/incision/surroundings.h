@@ -22,8 +22,12 @@ class Surroundings {
 
   /// For a path that is not known in advance: the path has changed from `from` on, and passes the triangle
   /// `seed` there. Searches again the skin next to the path from `from` to `from` + `ahead`, and nothing
-  /// else.
-  void extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed);
+  /// else. `cut`: the number of the path's own cut in the mesh.
+  void extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed, int cut);
+
+  /// For a path that was extended, ends in the mesh at `from`, and is known now: searches all of its skin
+  /// again. `cut` is its number in the mesh, where it has been cut, and `seed` as above.
+  void search_again(const CutMesh& mesh, const ScalpelPath& path, double from, int seed, int cut);
 
   using Station = PathTrace::Piece;
   const std::vector<Station>& stations() const { return stations_; }  ///< s increases
@@ -62,6 +66,8 @@ class Surroundings {
  private:
   class Front;
   void keep_until(double from);
+  std::vector<PathTrace::Corner> trace_on(const CutMesh& mesh, const ScalpelPath& path, double from,
+                                          double ahead, int seed);
   void add_stations(std::vector<Station> stations);
   void label_walls(const CutMesh& mesh);
 
@@ -70,6 +76,7 @@ class Surroundings {
   std::vector<Label> labels_;
   std::vector<int> reached_, relabelled_;  // by the last search; see relabelled()
   std::vector<int> walls_;                 // vertices of earlier cuts below their lips
+  std::vector<int> before_start_;          // vertices next to the path straight on before its start
   double reach_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "explorer/scalpel/scalpel_cutting.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -187,6 +188,7 @@ void ScalpelCutting::cut_on_to(const ScalpelPath::Point& at) {
     return;
   }
   if (!cutting_ && setup_.scale * norm(at.position - entered_->position) >= piece) {
+    end_path();
     cut([&] { begin_cut(*entered_, at); });
     if (cutting_) cut([&] { extend(at); });
   } else if (cutting_ && leads_on(at)) {
@@ -239,20 +241,29 @@ void ScalpelCutting::end_path() {
     free_cuts_.back().push_back(last);
   }
   cut([&] { incision.end_path(); });
-  opens_anew_ = setup_.fields.has_value();
+  if (setup_.fields)
+    known_ = std::async(std::launch::async, [&incision, fields = *setup_.fields, scale = setup_.scale] {
+      incision.search_again();
+      return fields.wound(incision, scale);
+    });
 }
 
-void ScalpelCutting::open_anew() {
-  if (!std::exchange(opens_anew_, false)) return;
-  const std::vector<int> moved = wounds_.replays().back().entered();
-  wounds_.reopen_newest(setup_.fields->wound(*incision(), setup_.scale));
-  tell(moved);
-  tell_touched();
+/// Opens the newest cut as its whole path tells, if that has been found; `wait`: once it has.
+void ScalpelCutting::open_anew(bool wait) {
+  if (!known_.valid() || (!wait && known_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
+    return;
+  try {
+    Wound wound = known_.get();
+    const std::vector<int> moved = wounds_.replays().back().entered();
+    moved_before_.insert(moved_before_.end(), moved.begin(), moved.end());
+    wounds_.reopen_newest(std::move(wound), most_entering);
+    tell_touched();
+  } catch (const InputError& e) {
+    figures_.stopped = e.what();
+  }
 }
 
 void ScalpelCutting::begin_cut(ScalpelPath::Point first, const ScalpelPath::Point& next) {
-  end_path();
-  open_anew();
   const ScalpelPath straight({first, next});
   if (const auto back = way_into_wound(straight, true, cuts_.size()))
     first.position -= *back * straight.at(0).along;
@@ -279,6 +290,7 @@ bool ScalpelCutting::leads_on(const ScalpelPath::Point& next) const {
 template <class Change>
 void ScalpelCutting::cut(const Change& change) {
   finder_.give_up();  // it is found anew when this cut ends
+  open_anew(true);
   Stopwatch watch;
   try {
     change();
@@ -322,10 +334,11 @@ void ScalpelCutting::open() {
   surface_->prepare();
   if (wounds_.empty()) return;
   Stopwatch watch;
-  open_anew();
-  if (!finder_.busy()) {  // else nothing has changed since it began
+  open_anew(setup_.wait_for_guard);
+  if (!finder_.busy() && !known_.valid()) {  // else nothing has changed since it began
     wounds_.move_to_tips();
     tell_touched();
+    if (!wounds_.are_entering()) tell(std::exchange(moved_before_, {}));
     if (wounds_.relieve())
       for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
     if (!is_under_way() && wounds_.wants_guard()) finder_.begin(wounds_);
@@ -360,8 +373,9 @@ void ScalpelCutting::take_guard(bool wait) {
 void ScalpelCutting::settle() {
   do {
     take_guard(true);
+    open_anew(true);
     open();
-  } while (finder_.busy() || !pending_.empty());
+  } while (finder_.busy() || known_.valid() || wounds_.are_entering() || !pending_.empty());
 }
 
 /// Whether the newest cut goes on: no part of it is at its end yet.

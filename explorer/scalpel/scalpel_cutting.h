@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -102,7 +103,7 @@ class ScalpelCutting {
   void begin_cut(ScalpelPath::Point first, const ScalpelPath::Point& next);
   void extend(ScalpelPath::Point next);
   void end_path();
-  void open_anew();
+  void open_anew(bool wait);
   std::optional<double> way_into_wound(const ScalpelPath& path, bool start, std::size_t earlier) const;
   bool leads_on(const ScalpelPath::Point& next) const;
   template <class Change>
@@ -126,17 +127,19 @@ class ScalpelCutting {
   std::unique_ptr<ContactSurface> surface_;
   std::optional<ContactReader> reader_;
   bool cutting_ = false;
-  bool opens_anew_ = false;                    // the newest cut: its path is known since the last step
   std::optional<ScalpelPath::Point> entered_;  // the place of the puncture
   std::vector<std::vector<ScalpelPath::Point>> free_cuts_;
   std::vector<Vec3> displacements_;  // mm, of vertices, as in the haptic surface
   std::deque<int> pending_;          // vertices that have moved since and are not passed on yet
+  std::vector<int> moved_before_;    // by wounds that opened anew: passed on when all have entered these
   std::vector<bool> is_pending_;
   std::vector<ContactSurface::Moved> moved_;
   std::vector<ContactSurface::Changed> changed_;
   std::vector<int> vertices_;
   CuttingFigures figures_;
-  GuardFinder finder_;  // reads the wounds and the mesh: ends first
+  // Read the wounds, the cuts and the mesh: end first.
+  std::future<Wound> known_;  // the newest cut's, whose path has ended
+  GuardFinder finder_;
 };
 
 }  // namespace cleft

@@ -1,7 +1,6 @@
 #include "explorer/wound/live_wounds.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -21,10 +20,10 @@ void LiveWounds::add(Wound wound, std::size_t most_entering) {
   if (size() > 1) cross(size() - 1);
 }
 
-void LiveWounds::reopen_newest(Wound wound) {
+void LiveWounds::reopen_newest(Wound wound, std::size_t most_entering) {
   replays_.pop_back();
   remove_newest();
-  add(std::move(wound), std::numeric_limits<std::size_t>::max());
+  add(std::move(wound), most_entering);
   complete_newest();
   relieved_at_ = 0;
 }
@@ -58,9 +57,10 @@ double LiveWounds::length() const {
   return length;
 }
 
-bool LiveWounds::wants_guard() const {
-  return length() != guarded_at_ &&
-         std::none_of(replays_.begin(), replays_.end(), [](const LiveReplay& r) { return r.late() > 0; });
+bool LiveWounds::wants_guard() const { return length() != guarded_at_ && !are_entering(); }
+
+bool LiveWounds::are_entering() const {
+  return std::any_of(replays_.begin(), replays_.end(), [](const LiveReplay& r) { return r.late() > 0; });
 }
 
 bool LiveWounds::guard_skin() {
@@ -95,7 +95,7 @@ bool LiveWounds::relieve() {
   const double length = this->length();
   const std::size_t last = size() - 1;
   const Incision& newest = *(*this)[last].incision;
-  const bool complete = newest.tip() == newest.path().length() && length > relieved_at_;
+  const bool complete = newest.extended_to() == 0 && !newest.is_short_of_end() && length > relieved_at_;
   const bool known = relief(last).cuts() == size();
   if (known && length < relieved_at_ + relieved_each && !complete) return false;
   std::vector<Amplitude> amplitudes;

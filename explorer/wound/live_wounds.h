@@ -22,7 +22,10 @@ class LiveWounds : public Wounds {
     if (!empty()) fields.follow_shape(newest());
   }
   /// Opens the newest cut, whose path has ended (Incision::end_path), as one whose path was known before.
-  void reopen_newest(Wound wound);
+  /// `most_entering`: as in add().
+  void reopen_newest(Wound wound, std::size_t most_entering);
+  /// Whether vertices wait to enter.
+  bool are_entering() const;
   /// Moves the blade of each wound to its tip.
   void move_to_tips();
   /// Moves the blade of the newest wound to the end of its path.

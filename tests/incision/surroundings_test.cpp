@@ -74,5 +74,60 @@ INSTANTIATE_TEST_SUITE_P(OfARegularPlate, SidesOfArcs,
                            return name;
                          });
 
+/// How far the labels of the skin are from those around the same path if it is known before it is cut.
+struct Apart {
+  int sides = 0, reached = 0, compared = 0;
+  double detour = 0;
+};
+Apart apart_from_known(const SurfaceMesh& mesh, const Incision& found) {
+  const Incision known(mesh, found.path());
+  const auto &a = known.surroundings().labels(), &b = found.surroundings().labels();
+  Apart result;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const auto &one = known.mesh().vertices()[v], &other = found.mesh().vertices()[v];
+    if (other.kind != VertexKind::skin || one.position != other.position) continue;
+    const double beside = found.path().coordinates(one.position).v;
+    const auto side = [&](const Surroundings::Label& label) {  // both: its place tells it
+      return label.side != Side::both ? label.side : beside < 0 ? Side::left : Side::right;
+    };
+    if (std::abs(beside) < 1e-9) continue;  // of either side
+    ++result.compared;
+    result.reached += a[v].reached != b[v].reached;
+    if (!a[v].reached || !b[v].reached) continue;
+    result.sides += side(a[v]) != side(b[v]);
+    result.detour = std::max(result.detour, std::abs(a[v].detour - b[v].detour));
+  }
+  return result;
+}
+
+double ridges(double x, double y) { return 4 * std::exp(-std::pow((y - 9 - 0.2 * x) / 1.5, 2)); }
+
+/// While the blade goes the skin is searched piece by piece, beside a path that goes on straight; when it has
+/// left, the whole of it again.
+TEST(Surroundings, OfAPathThatWasFoundAreThoseOfOneThatWasKnown) {
+  const SurfaceMesh mesh = grid(90, 70, -45, -35, 1, ridges);
+  const auto place = [](double s) {
+    const double y = 3 * std::sin(0.15 * s) + 0.03 * std::sin(9 * s);  // a bend of 15 mm, and a tremor
+    return ScalpelPath::Point{{s - 20, y, ridges(s - 20, y)}, {0, 0, 1}, 3};
+  };
+  IncisionOptions options;
+  options.refined = 0.7;
+  ScalpelPath::Point straight = place(0.7);
+  straight.position = place(0).position + 36 * normalized(straight.position - place(0).position);
+  Incision cut(mesh, ScalpelPath({place(0), straight}), options);
+  for (double s = 0.7; s < 40; s += 0.7) cut.extend(place(s), 18);
+  const ScalpelPath whole = cut.path();
+  cut.end_path();
+  EXPECT_EQ(cut.extended_to(), 0);
+  EXPECT_LT(cut.path().length(), whole.length() - 10);
+  EXPECT_FALSE(cut.is_short_of_end());
+  cut.search_again();
+  const Apart apart = apart_from_known(mesh, cut);
+  EXPECT_GT(apart.compared, 6000);
+  EXPECT_EQ(apart.reached, 0);
+  EXPECT_EQ(apart.sides, 0);
+  EXPECT_LT(apart.detour, 0.3);  // beside the path the two meshes differ
+}
+
 }  // namespace
 }  // namespace cleft
