@@ -241,17 +241,21 @@ void ScalpelCutting::end_path() {
     free_cuts_.back().push_back(last);
   }
   cut([&] { incision.end_path(); });
-  if (setup_.fields)
-    known_ = std::async(std::launch::async, [&incision, fields = *setup_.fields, scale = setup_.scale] {
-      incision.search_again();
-      return fields.wound(incision, scale);
-    });
+  opens_anew_ = setup_.fields.has_value();
 }
 
-/// Opens the newest cut as its whole path tells, if that has been found; `wait`: once it has.
+/// The wound of the newest cut, whose path has ended, is found on a thread of its own, and taken when it has
+/// been found and no motion is left to pass on; `wait`: at once.
 void ScalpelCutting::open_anew(bool wait) {
-  if (!known_.valid() || (!wait && known_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
-    return;
+  if (std::exchange(opens_anew_, false))
+    known_ = std::async(std::launch::async,
+                        [&incision = *cuts_.back(), fields = *setup_.fields, scale = setup_.scale] {
+                          incision.search_again();
+                          return fields.wound(incision, scale);
+                        });
+  if (!known_.valid()) return;
+  const bool found = known_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (!wait && (!found || !pending_.empty())) return;
   try {
     Wound wound = known_.get();
     const std::vector<int> moved = wounds_.replays().back().entered();

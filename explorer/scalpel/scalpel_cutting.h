@@ -127,6 +127,7 @@ class ScalpelCutting {
   std::unique_ptr<ContactSurface> surface_;
   std::optional<ContactReader> reader_;
   bool cutting_ = false;
+  bool opens_anew_ = false;                    // the newest cut, since its path has ended
   std::optional<ScalpelPath::Point> entered_;  // the place of the puncture
   std::vector<std::vector<ScalpelPath::Point>> free_cuts_;
   std::vector<Vec3> displacements_;  // mm, of vertices, as in the haptic surface
@@ -138,7 +139,7 @@ class ScalpelCutting {
   std::vector<int> vertices_;
   CuttingFigures figures_;
   // Read the wounds, the cuts and the mesh: end first.
-  std::future<Wound> known_;  // the newest cut's, whose path has ended
+  std::future<Wound> known_;  // of the newest cut, which opens anew
   GuardFinder finder_;
 };
 
