@@ -242,8 +242,7 @@ TEST(FreeCutting, CutsThatEndOrBeginBesideAWoundComeToIt) {
         known.push_back(std::make_unique<Incision>(both, one, IncisionOptions{}));
         known.back()->advance_to(one.length());
       }
-      const CutFields same = fields;
-      const ReplayedWounds wounds({same.wound(*known[0], 1), same.wound(*known[1], 1)});
+      const ReplayedWounds wounds({fields.wound(*known[0], 1), fields.wound(*known[1], 1)});
       std::vector<Vec3> seen(wounds.vertex_count());
       wounds.positions(wounds.duration(), seen);
       double farthest = 0, moved = 0;
