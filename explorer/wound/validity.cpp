@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "explorer/study/case_figures.h"
 #include "explorer/wound/prestress_fields.h"
@@ -140,6 +141,17 @@ struct Junction {
   bool is_crossing(double depth) const { return from_end > depth / 2; }
 };
 
+/// Of a cut's skin, along it over across it, at s mm; infinite where its field does not tell them, as where
+/// nothing is known of how it pulls.
+double tension_along_over_across(const Wound& cut, double s) {
+  try {
+    const double across = cut.field.prestress(&Prestress::vv, s);
+    return across > 0 ? cut.field.prestress(&Prestress::uu, s) / across : infinity;
+  } catch (const InputError&) {
+    return infinity;
+  }
+}
+
 std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::size_t i) {
   const Incision& own = *cuts[i]->incision;
   std::vector<Junction> found;
@@ -148,10 +160,9 @@ std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::s
     for (std::size_t j = 0; j < cuts.size(); ++j) {
       if (j == i || vertex.cut != cuts[j]->incision->cut()) continue;
       const double s = vertex.s * cuts[j]->scale();
-      const double across = cuts[j]->field.prestress(&Prestress::vv, s);
       const auto& mouth = cuts[i]->volume.mouth(c.s > own.path().length() / 2);
       const Vec3 along = cuts[j]->incision->path().at(vertex.s).along;
-      found.push_back({j, across > 0 ? cuts[j]->field.prestress(&Prestress::uu, s) / across : infinity,
+      found.push_back({j, tension_along_over_across(*cuts[j], s),
                        norm(cross(along, own.path().at(c.s).along)),
                        std::min(c.s, own.path().length() - c.s) * cuts[i]->scale(),
                        mouth && mouth->earlier == cuts[j]->incision});
