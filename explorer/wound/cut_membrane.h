@@ -19,11 +19,11 @@ class CutMembrane {
   /// The stiffness of the springs for displacements in waves of the number w (radians for each mm): k for
   /// long ones, k (1 + more w^2 / (w^2 + 1 / l^2)) for short ones, with one `more` for waves that dilate the
   /// sheet, the other for waves that shear it. The defaults are those with which openings of simulated cuts
-  /// that cross at 20 to 75 degrees, 20 to 50 mm long, and of parallel ones are right at once: the tissue
-  /// below a cut holds back what slides along it, and yields where its walls part.
+  /// that cross or meet at 20 to 90 degrees, 15 to 50 mm long, are right: the tissue below a cut holds back
+  /// what slides along it, and yields where its walls part.
   struct Springs {
-    double dilating = -0.11, shearing = 2.19;  ///< `more`, above -1
-    double length = 0.1;                       ///< l over the reach, at most a fifth
+    double dilating = -1, shearing = 0.5;  ///< `more`, at least -1
+    double length = 0.09;                  ///< l over the reach, at most a fifth
   };
 
   /// `reach`, mm: sqrt((lambda + 2 mu) / k), by which part displacements beside an endless straight cut fall
@@ -36,6 +36,10 @@ class CutMembrane {
     CutMembrane result = *this;
     result.reach_ = reach;
     return result;
+  }
+  /// The same sheet, held otherwise.
+  CutMembrane with(double reach, const Springs& springs) const {
+    return {reach, lame_ / (lame_ + 2 * shear_), springs};
   }
 
   /// How a cut opens between its corners, mm, in the middles of its straight pieces. Each piece has a frame:

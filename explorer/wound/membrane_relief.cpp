@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -11,35 +12,42 @@ namespace cleft {
 
 namespace {
 
-/// Pieces of a cut as long as the canonical one, and of a cut: the ratio of two openings needs fewer than
-/// they do. With shorter ones corners of a crossing part so steeply that the guard holds cuts back.
-constexpr int own_pieces = 30, most_pieces = 90, fewest_pieces = 8;
+/// Stretches of a cut as long as the canonical one, and of a cut, in the middles of which amplitudes are
+/// told. With shorter ones corners of a crossing part so steeply that the guard holds cuts back.
+constexpr int own_stretches = 30, most_stretches = 90, fewest_stretches = 8;
+/// A stretch is one piece; of so many next to a joint each is two, and the one at the joint is four, which
+/// end at these parts of it: openings change most there, above all where corners are acute. Half of all these
+/// lengths change openings of cuts that cross or meet at 20 to 90 degrees by at most 0.013.
+constexpr int halved_stretches = 6;
+constexpr std::array<double, 3> next_to_joint = {2. / 16, 5. / 16, 9. / 16};
 /// In reaches of the membrane: displacements beside a cut are as good as 0 there.
 constexpr double farthest = 4;
 /// Of the cosine between two normals: with less, the skin has turned away.
 constexpr double turned_away = 0.1;
-/// The reach in which cuts that do not touch feel each other, over that with which one opens: so openings of
-/// simulated parallel cuts, 4 to 10 mm apart, are off by 0.01, with the same reach by 0.02.
-constexpr double reach_apart = 0.85;
-/// In pieces: cuts that are nearer to each other touch, and pieces end there. And pieces are longer.
-constexpr double touching = 0.25, shortest_piece = 0.3;
+/// The reach in which cuts that do not touch feel each other, over that with which one opens, and the
+/// springs: so openings of simulated parallel cuts, 4 to 12 mm apart, are off by 0.01. With the springs of
+/// cuts that touch, the one between two others, 8 mm from both, is off by 0.1.
+constexpr double reach_apart = 0.87;
+constexpr CutMembrane::Springs springs_apart{-0.11, 2.19, 0.1};
+/// In stretches: cuts that are nearer to each other touch, and stretches end there. And stretches are longer.
+constexpr double touching = 0.25, shortest = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
 /// where it opens little alone, the field cannot open it otherwise.
 constexpr double most_of_touching = 1.1;
-/// Of a piece: so near to where another cut opens into it, it opens as in the piece's middle.
+/// Of a stretch: so near to where another cut opens into it, it opens as in the stretch's middle.
 constexpr double next_to_mouth = 0.01;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
 
-double canonical_piece(const Wound& wound) { return wound.field.shape().cut().length / own_pieces; }
+double canonical_stretch(const Wound& wound) { return wound.field.shape().cut().length / own_stretches; }
 
 }  // namespace
 
 std::vector<double> touched_at(const Wound& cut, const Wound& other) {
-  constexpr int samples_a_piece = 2, rounds = 20;
+  constexpr int samples_a_stretch = 2, rounds = 20;
   const ScalpelPath &path = cut.incision->path(), &other_path = other.incision->path();
   const double length = cut.complete(), other_end = other.complete() / other.scale();
-  const int samples = std::max(2, static_cast<int>(samples_a_piece * length / canonical_piece(cut)));
+  const int samples = std::max(2, static_cast<int>(samples_a_stretch * length / canonical_stretch(cut)));
   const auto distance = [&](double s) {
     const Vec3 there = cut.scale() / other.scale() * path.at(s / cut.scale()).position;
     const double other_s = std::clamp(other_path.coordinates(there, 0, other_end).s, 0., other_end);
@@ -51,7 +59,7 @@ std::vector<double> touched_at(const Wound& cut, const Wound& other) {
     const bool nearest =
         (i == 0 || distances[i - 1] >= distances[i]) && (i == samples || distances[i + 1] > distances[i]);
     // Between samples it is nearer by no more than the way to them.
-    if (!nearest || distances[i] > touching * canonical_piece(cut) + length / samples) continue;
+    if (!nearest || distances[i] > touching * canonical_stretch(cut) + length / samples) continue;
     double from = length * std::max(0, i - 1) / samples, to = length * std::min(samples, i + 1) / samples;
     for (int round = 0; round < rounds; ++round) {
       const double third = (to - from) / 3;
@@ -60,81 +68,154 @@ std::vector<double> touched_at(const Wound& cut, const Wound& other) {
       else
         from += third;
     }
-    if (distance((from + to) / 2) < touching * canonical_piece(cut)) found.push_back((from + to) / 2);
+    if (distance((from + to) / 2) < touching * canonical_stretch(cut)) found.push_back((from + to) / 2);
   }
   return found;
 }
 
 namespace {
 
-/// A cut in straight pieces.
+/// Where a cut touches others.
+struct Joint {
+  double s;                   ///< mm along its path
+  std::optional<Vec3> place;  ///< mm, the same for all cuts that touch there; none where stretches end anyway
+};
+
+/// A cut in stretches, each of one or some straight pieces.
 struct Cut {
   struct Piece {
     Vec3 begin, middle, end;  // mm
     PathFrame frame;          // in the middle
+    double s;                 // likewise, mm along the path
   };
   std::vector<Piece> pieces;
-  std::vector<double> corners;  // mm along the path
-  std::vector<double> mouths;   // likewise, of cuts that open into it
+  std::vector<double> corners = {};              // mm along the path, where stretches begin and end
+  std::vector<Eigen::Index> first_pieces = {0};  // of stretches, and the number of pieces
+  std::vector<double> mouths = {};               // mm along the path, of cuts that open into it
 
-  /// `touched`: where pieces end.
-  Cut(const Wound& wound, std::vector<double> touched) {
-    const double length = wound.complete(), scale = wound.scale();
-    const double piece = std::clamp(canonical_piece(wound), length / most_pieces, length / fewest_pieces);
-    const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
-    std::sort(touched.begin(), touched.end());
-    touched.push_back(length);
+  /// `alone`: as it would be without the others, whose joints are no more than ends of stretches.
+  Cut(const Wound& wound, std::vector<Joint> joints, bool alone = false) {
+    const double length = wound.complete();
+    const double stretch =
+        std::clamp(canonical_stretch(wound), length / most_stretches, length / fewest_stretches);
+    std::ranges::sort(joints, {}, &Joint::s);
+    Joint start{0, {}}, end{length, {}};
     // What is beyond cuts that it begins and ends in opens nothing.
-    const bool begins = wound.volume.mouth(false) && touched.front() < shortest_piece * piece;
-    corners.push_back(begins ? touched.front() : 0);
-    if (wound.volume.mouth(true) && touched.size() > 1 &&
-        length - touched[touched.size() - 2] < shortest_piece * piece)
-      touched.pop_back();
-    for (const double to : touched) {
-      const double from = corners.back();
-      const bool last = to == touched.back();
-      if (to - from < shortest_piece * piece || (!last && length - to < shortest_piece * piece)) continue;
-      const int count = std::max(1, static_cast<int>(std::lround((to - from) / piece)));
-      for (int i = 1; i <= count; ++i) corners.push_back(std::lerp(from, to, double(i) / count));
+    if (!joints.empty() && joints.front().s < shortest * stretch) {
+      start.place = joints.front().place;
+      if (wound.volume.mouth(false)) start.s = joints.front().s;
     }
-    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-      const double middle = (corners[i] + corners[i + 1]) / 2;
-      pieces.push_back(
-          {place(corners[i]), place(middle), place(corners[i + 1]), wound.volume.skin_frame(middle / scale)});
+    if (!joints.empty() && length - joints.back().s < shortest * stretch) {
+      end.place = joints.back().place;
+      if (wound.volume.mouth(true)) end.s = joints.back().s;
+    }
+    std::vector<Joint> ends = {start};
+    for (const Joint& joint : joints)
+      if (joint.s - ends.back().s >= shortest * stretch && end.s - joint.s >= shortest * stretch)
+        ends.push_back(joint);
+    ends.push_back(end);
+    corners.push_back(start.s);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const double way = ends[i + 1].s - ends[i].s;
+      const int count = std::max(1, static_cast<int>(std::lround(way / stretch)));
+      const auto from_joints = [&](int before, int behind) {
+        return std::min(ends[i].place ? before : count, ends[i + 1].place ? behind : count);
+      };
+      for (int k = 0; k < count; ++k) {
+        const double from = corners.back(), to = std::lerp(ends[i].s, ends[i + 1].s, (k + 1.) / count);
+        std::vector<double> parts = {0};
+        const int next = from_joints(k, count - 1 - k);
+        if (next == 0 && !alone) {
+          for (const double part : next_to_joint) {
+            if (k == 0 && ends[i].place) parts.push_back(part);
+            if (k == count - 1 && ends[i + 1].place) parts.push_back(1 - part);
+          }
+          std::ranges::sort(parts);
+        } else if (alone || next < std::min(count, halved_stretches)) {
+          parts.push_back(0.5);
+        }
+        parts.push_back(1);
+        for (std::size_t n = 0; n + 1 < parts.size(); ++n)
+          add(wound, std::lerp(from, to, parts[n]), std::lerp(from, to, parts[n + 1]));
+        end_stretch(to);
+        if (k == 0 && ends[i].place)
+          pieces[static_cast<std::size_t>(first_pieces.end()[-2])].begin = *ends[i].place;
+      }
+      if (ends[i + 1].place) pieces.back().end = *ends[i + 1].place;
     }
   }
 
-  /// The same, begun `count` pieces before its start, straight.
-  Cut begun_before(int count) const {
-    Cut result = *this;
-    const double piece = corners[1] - corners[0];
-    for (int i = 0; i < count; ++i) {
-      const Piece& next = result.pieces.front();
-      const Vec3 back = -piece * next.frame.along;
-      result.pieces.insert(result.pieces.begin(),
-                           {next.begin + back, next.begin + 0.5 * back, next.begin, next.frame});
-      result.corners.insert(result.corners.begin(), result.corners.front() - piece);
-    }
-    return result;
-  }
-
-  /// The same, run on by `way` mm beyond its end, straight, in `count` pieces.
-  Cut run_on(int count, double way) const {
-    Cut result = *this;
-    for (int i = 0; i < count; ++i) {
-      const Piece& last = result.pieces.back();
-      const Vec3 on = way / count * last.frame.along;
-      result.pieces.push_back({last.end, last.end + 0.5 * on, last.end + on, last.frame});
-      result.corners.push_back(result.corners.back() + way / count);
-    }
-    return result;
-  }
-
-  Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(pieces.size()); }
+  std::size_t stretches() const { return first_pieces.size() - 1; }
+  Eigen::Index rows() const { return 2 * first_pieces.back(); }
+  /// The middles of stretches.
   std::vector<double> stations() const {
     std::vector<double> result;
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) result.push_back((corners[i] + corners[i + 1]) / 2);
     return result;
+  }
+  double first_stretch() const { return corners[1] - corners[0]; }
+  double last_stretch() const { return corners.back() - corners.end()[-2]; }
+
+  /// The means over the stretches that begin with number `first`, of what is told for their pieces.
+  Eigen::VectorXd means(const Eigen::VectorXd& of_pieces, std::size_t first = 0) const {
+    const Eigen::Index begin = first_pieces[first], end = begin + of_pieces.size() / 2;
+    std::vector<Eigen::Vector2d> result;
+    for (std::size_t i = first; i < stretches() && first_pieces[i] < end; ++i) {
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+      double length = 0;
+      for (Eigen::Index k = first_pieces[i]; k < first_pieces[i + 1]; ++k) {
+        const Piece& piece = pieces[static_cast<std::size_t>(k)];
+        const double part = norm(piece.end - piece.begin);
+        sum += part * of_pieces.segment<2>(2 * (k - begin)), length += part;
+      }
+      result.push_back(sum / length);
+    }
+    return Eigen::Map<const Eigen::VectorXd>(result.empty() ? nullptr : result.front().data(),
+                                             2 * static_cast<Eigen::Index>(result.size()));
+  }
+
+  /// The same, begun `count` stretches before its start, straight.
+  Cut begun_before(int count) const {
+    Cut result = *this;
+    const double length = first_stretch();
+    for (int i = 0; i < count; ++i) {
+      for (int half = 0; half < 2; ++half) {
+        const Piece& next = result.pieces.front();
+        const Vec3 back = -length / 2 * next.frame.along;
+        result.pieces.insert(result.pieces.begin(),
+                             {next.begin + back, next.begin + 0.5 * back, next.begin, next.frame, next.s});
+      }
+      result.corners.insert(result.corners.begin(), result.corners.front() - length);
+      for (Eigen::Index& first : result.first_pieces) first += 2;
+      result.first_pieces.insert(result.first_pieces.begin(), 0);
+    }
+    return result;
+  }
+
+  /// The same, run on by `way` mm beyond its end, straight, in `count` stretches.
+  Cut run_on(int count, double way) const {
+    Cut result = *this;
+    for (int i = 0; i < count; ++i) {
+      for (int half = 0; half < 2; ++half) {
+        const Piece& last = result.pieces.back();
+        const Vec3 on = way / count / 2 * last.frame.along;
+        result.pieces.push_back({last.end, last.end + 0.5 * on, last.end + on, last.frame, last.s});
+      }
+      result.end_stretch(result.corners.back() + way / count);
+    }
+    return result;
+  }
+
+ private:
+  void add(const Wound& wound, double from, double to) {
+    const double scale = wound.scale(), middle = (from + to) / 2;
+    const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
+    pieces.push_back(
+        {place(from), place(middle), place(to), wound.volume.skin_frame(middle / scale), middle});
+  }
+  void end_stretch(double at) {
+    corners.push_back(at);
+    first_pieces.push_back(static_cast<Eigen::Index>(pieces.size()));
   }
 };
 
@@ -142,10 +223,11 @@ struct Cut {
 Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& from) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(to.rows(), from.rows());
   for (std::size_t i = 0; i < to.pieces.size(); ++i) {
-    const auto& [begin, middle, end, frame] = to.pieces[i];
-    const auto seen = [&, &at = middle, &axes = frame](const Vec3& place) -> Eigen::Vector2d {
-      const Vec3 way = place - at;
-      const Eigen::Vector2d in_skin(dot(way, axes.along), dot(way, axes.across));
+    const Vec3& middle = to.pieces[i].middle;
+    const PathFrame& frame = to.pieces[i].frame;
+    const auto seen = [&](const Vec3& place) -> Eigen::Vector2d {
+      const Vec3 way = place - middle;
+      const Eigen::Vector2d in_skin(dot(way, frame.along), dot(way, frame.across));
       const double length = in_skin.norm();
       return length > 0 ? Eigen::Vector2d(norm(way) / length * in_skin) : in_skin;
     };
@@ -166,9 +248,9 @@ Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
   const bool tells_shear = wound.field.shape().parameters.number("skin.prestress_uv").has_value();
   Eigen::VectorXd result(cut.rows());
   Eigen::Index row = 0;
-  for (const double s : cut.stations()) {
-    result(row++) = tells_shear ? wound.field.prestress(&Prestress::uv, s) : 0;
-    result(row++) = wound.field.prestress(&Prestress::vv, s);
+  for (const Cut::Piece& piece : cut.pieces) {
+    result(row++) = tells_shear ? wound.field.prestress(&Prestress::uv, piece.s) : 0;
+    result(row++) = wound.field.prestress(&Prestress::vv, piece.s);
   }
   return result;
 }
@@ -177,46 +259,44 @@ Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
 /// far from the start of one that has begun before; and as one that has run on beyond its end.
 class ShownAlone {
  public:
-  ShownAlone(const CutMembrane& membrane, const Wound& wound, const Cut& cut)
+  ShownAlone(const CutMembrane& membrane, const Wound& wound, std::vector<Joint> joints)
       : opens_on_(wound.volume.opens_on(false)) {
     const double runs_on = wound.volume.opens_on(true);
     if (!(std::max(opens_on_, runs_on) > 0)) return;
-    piece_ = cut.corners[1] - cut.corners[0];
-    const double last_piece = cut.corners.back() - cut.corners[cut.corners.size() - 2];
-    if (opens_on_ > 0) before_ = std::max(1, static_cast<int>(std::lround(opens_on_ / piece_ - 0.5)));
-    if (runs_on > 0) after_ = std::max(1, static_cast<int>(std::lround(runs_on / last_piece)));
-    const Cut longer = cut.begun_before(before_).run_on(after_, runs_on);
-    taken_ = taken(membrane, longer, longer);
-    const Eigen::VectorXd tractions = tractions_on(wound, cut);
-    tractions_.resize(longer.rows());
-    for (int i = 0; i < before_; ++i) tractions_.segment<2>(2 * i) = tractions.head<2>();
-    tractions_.segment(2 * before_, tractions.size()) = tractions;
-    for (int i = 0; i < after_; ++i) tractions_.tail(2 * (after_ - i)).head<2>() = tractions.tail<2>();
+    const Cut cut(wound, std::move(joints), true);
+    stretch_ = cut.first_stretch();
+    if (opens_on_ > 0) before_ = std::max(1, static_cast<int>(std::lround(opens_on_ / stretch_ - 0.5)));
+    if (runs_on > 0) after_ = std::max(1, static_cast<int>(std::lround(runs_on / cut.last_stretch())));
+    longer_ = cut.begun_before(before_).run_on(after_, runs_on);
+    taken_ = taken(membrane, *longer_, *longer_);
+    tractions_ = tractions_on(wound, *longer_);
   }
 
-  /// Of the pieces that are open.
+  /// `alone`: of the stretches that are open.
   void in(Eigen::VectorXd& alone, bool has_run_on) const {
     const auto open = static_cast<int>(alone.size() / 2);
     const int after = has_run_on ? after_ : 0;
     if (after > 0) alone = opened(before_, open + after).head(alone.size());
     for (int i = 0; i < open && i < before_; ++i) {
-      const int pieces = before_ - i + open + after;
-      const double length = pieces * piece_, middle = (before_ + 0.5) * piece_,
-                   there = std::min(opens_on_, length - piece_ / 2);
+      const int stretches = before_ - i + open + after;
+      const double length = stretches * stretch_, middle = (before_ + 0.5) * stretch_,
+                   there = std::min(opens_on_, length - stretch_ / 2);
       alone.segment<2>(2 * i) = std::sqrt(there * (length - there) / (middle * (length - middle))) *
-                                opened(i, pieces).segment<2>(2 * before_);
+                                opened(i, stretches).segment<2>(2 * before_);
     }
   }
 
  private:
-  Eigen::VectorXd opened(int first, int pieces) const {
-    return taken_.block(2 * first, 2 * first, 2 * pieces, 2 * pieces)
-        .partialPivLu()
-        .solve(tractions_.segment(2 * first, 2 * pieces));
+  Eigen::VectorXd opened(int first, int stretches) const {
+    const auto from = static_cast<std::size_t>(first), to = from + static_cast<std::size_t>(stretches);
+    const Eigen::Index row = 2 * longer_->first_pieces[from], rows = 2 * longer_->first_pieces[to] - row;
+    return longer_->means(
+        taken_.block(row, row, rows, rows).partialPivLu().solve(tractions_.segment(row, rows)), from);
   }
 
-  double opens_on_ = 0, piece_ = 0;  // mm
-  int before_ = 0, after_ = 0;       // pieces
+  double opens_on_ = 0, stretch_ = 0;  // mm
+  int before_ = 0, after_ = 0;         // stretches
+  std::optional<Cut> longer_;
   Eigen::MatrixXd taken_;
   Eigen::VectorXd tractions_;
 };
@@ -234,8 +314,8 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
     result.shifts.push_back(opens ? (opened(i) - value * alone(i)) / alone(i + 1) : 0);
   }
   // Ahead of the blade as at its tip. The skin between two cuts that open into it moves along it as a whole.
-  result.values.resize(cut.pieces.size(), result.values.empty() ? ahead : result.values.back());
-  result.shifts.resize(cut.pieces.size(), result.shifts.empty() ? 0 : result.shifts.back());
+  result.values.resize(cut.stretches(), result.values.empty() ? ahead : result.values.back());
+  result.shifts.resize(cut.stretches(), result.shifts.empty() ? 0 : result.shifts.back());
   for (const double mouth : cut.mouths) {
     const auto next = std::ranges::upper_bound(result.stations, mouth);
     if (next == result.stations.begin() || next == result.stations.end()) continue;
@@ -248,34 +328,43 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
   return result;
 }
 
-/// All cuts in one membrane. With the last one cut in part, its first pieces alone are open: their equations
-/// are what the elimination of the complete cuts leaves.
+/// Where a cut touches another one at s mm of its path: the place of a joint that is known, or of a new one.
+Vec3 joint_at(const Wound& cut, double s, std::vector<Vec3>& places) {
+  const Vec3 there = cut.scale() * cut.incision->path().at(s / cut.scale()).position;
+  for (const Vec3& place : places)
+    if (norm(place - there) < touching * canonical_stretch(cut)) return place;
+  return places.emplace_back(there);
+}
+
+/// All cuts in one membrane. With the last one cut in part, its first stretches alone are open: their
+/// equations are what the elimination of the complete cuts leaves.
 class Together {
  public:
   Together(const std::vector<const Wound*>& wounds, const CutMembrane& membrane) {
     std::vector<Eigen::Index> first = {0};
     const std::size_t count = wounds.size();
     std::vector<std::vector<bool>> touch(count, std::vector<bool>(count, false));
+    std::vector<std::vector<Joint>> joints(count);
+    std::vector<Vec3> places;  // of all of them
     for (std::size_t i = 0; i < count; ++i) {
-      std::vector<double> touched;
       for (std::size_t j = 0; j < count; ++j) {
         if (i == j) continue;
-        const std::vector<double> at = touched_at(*wounds[i], *wounds[j]);
-        touched.insert(touched.end(), at.begin(), at.end());
-        if (!at.empty()) touch[i][i] = touch[i][j] = touch[j][i] = true;
+        for (const double s : touched_at(*wounds[i], *wounds[j])) {
+          joints[i].push_back({s, joint_at(*wounds[i], s, places)});
+          touch[i][i] = touch[i][j] = touch[j][i] = true;
+        }
       }
       touch_.push_back(touch[i][i]);
       begins_.push_back(wounds[i]->volume.mouth(false).has_value());
       ends_.push_back(wounds[i]->volume.mouth(true).has_value());
-      cuts_.emplace_back(*wounds[i], std::move(touched));
+      cuts_.emplace_back(*wounds[i], joints[i]);
       for (std::size_t j = i + 1; j < count; ++j)
         for (const bool at_end : {false, true})
           if (const auto at = wounds[i]->mouth_of(*wounds[j], at_end)) cuts_.back().mouths.push_back(*at);
       first.push_back(first.back() + cuts_.back().rows());
     }
-    const auto between = [&](bool in_contact) {
-      return in_contact ? membrane : membrane.with_reach(reach_apart * membrane.reach());
-    };
+    const CutMembrane apart = membrane.with(reach_apart * membrane.reach(), springs_apart);
+    const auto between = [&](bool in_contact) -> const CutMembrane& { return in_contact ? membrane : apart; };
     const Eigen::Index complete = first[cuts_.size() - 1], last = cuts_.back().rows();
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(first.back(), first.back());
     Eigen::VectorXd tractions(first.back());
@@ -284,11 +373,11 @@ class Together {
       for (std::size_t j = 0; j < cuts_.size(); ++j)
         all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) =
             taken(between(touch[i][j]), cuts_[i], cuts_[j]);
-      shown_.emplace_back(between(touch[i][i]), *wounds[i], cuts_[i]);
+      shown_.emplace_back(between(touch[i][i]), *wounds[i], std::move(joints[i]));
       if (i + 1 < cuts_.size()) {
-        alone_.push_back(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
-                             .partialPivLu()
-                             .solve(tractions.segment(first[i], cuts_[i].rows())));
+        alone_.push_back(cuts_[i].means(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
+                                            .partialPivLu()
+                                            .solve(tractions.segment(first[i], cuts_[i].rows()))));
         shown_[i].in(alone_.back(), true);
       }
     }
@@ -305,7 +394,7 @@ class Together {
   std::vector<Amplitude> with_blade_at(double blade) const {
     const std::vector<double>& corners = cuts_.back().corners;
     const auto next = std::upper_bound(corners.begin(), corners.end(), blade);
-    const auto before = std::max<Eigen::Index>(0, next - corners.begin() - 1);
+    const auto before = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, next - corners.begin() - 1));
     const double on = opened_to_.beyond(blade), part_on = on > 0 ? on / opened_to_.runs_on : 0;
     std::vector<Amplitude> result = when_cut(before, part_on);
     if (next == corners.begin() || next == corners.end()) return result;
@@ -322,11 +411,11 @@ class Together {
       }
   }
 
-  /// With so many pieces of the last cut open, which has run on in part.
-  std::vector<Amplitude> when_cut(Eigen::Index pieces, double part_on) const {
-    std::vector<Amplitude> result = with_pieces(pieces, part_on > 0);
+  /// With so many stretches of the last cut open, which has run on in part.
+  std::vector<Amplitude> when_cut(std::size_t stretches, double part_on) const {
+    std::vector<Amplitude> result = with_stretches(stretches, part_on > 0);
     if (0 < part_on && part_on < 1) {
-      std::vector<Amplitude> before = with_pieces(pieces, false);
+      std::vector<Amplitude> before = with_stretches(stretches, false);
       go_to(result, part_on, before);
       return before;
     }
@@ -334,21 +423,23 @@ class Together {
   }
 
   /// The same, which has run on or not.
-  std::vector<Amplitude> with_pieces(Eigen::Index pieces, bool has_run_on) const {
-    const Eigen::Index rows = 2 * pieces;
+  std::vector<Amplitude> with_stretches(std::size_t stretches, bool has_run_on) const {
+    const Cut& last = cuts_.back();
+    const Eigen::Index rows = 2 * last.first_pieces[stretches];
     const Eigen::VectorXd opened =
         left_.topLeftCorner(rows, rows).partialPivLu().solve(left_tractions_.head(rows));
     const Eigen::VectorXd of_complete = by_tractions_ - by_last_.leftCols(rows) * opened;
     std::vector<Amplitude> result;
     Eigen::Index row = 0;
     for (std::size_t k = 0; k + 1 < cuts_.size(); ++k) {
-      result.push_back(over_alone(cuts_[k], of_complete.segment(row, alone_[k].size()), alone_[k]));
-      row += alone_[k].size();
+      const Eigen::VectorXd opened_there = of_complete.segment(row, cuts_[k].rows());
+      result.push_back(over_alone(cuts_[k], cuts_[k].means(opened_there), alone_[k]));
+      row += cuts_[k].rows();
     }
     Eigen::VectorXd alone =
-        last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows));
+        last.means(last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows)));
     shown_.back().in(alone, has_run_on);
-    result.push_back(over_alone(cuts_.back(), opened, alone, begins_.back() ? 0 : 1));
+    result.push_back(over_alone(last, last.means(opened), alone, begins_.back() ? 0 : 1));
     for (std::size_t k = 0; k < result.size(); ++k) {
       if (!touch_[k]) continue;
       // Where a cut opens into another one it has no end.

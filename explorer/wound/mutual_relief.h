@@ -31,7 +31,7 @@ struct Amplitude {
 };
 
 /// Of the displacement across: lips shift along the cut by no more, and lean by no more.
-constexpr double most_shift = 0.5, most_lean = 1;
+constexpr double most_shift = 1, most_lean = 1;
 
 /// Where a cut is crossed by another one.
 struct Crossing {

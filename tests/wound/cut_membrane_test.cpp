@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace cleft {
 
@@ -72,54 +76,105 @@ TEST(CutMembrane, ALongCutOpensAsAnEndlessOne) {
 
 /// Two cuts that cross in their middles in skin that is pulled 1 : 3, the second across the first one.
 /// Simulated with elements of 0.5 mm, beside the crossing they open by these parts of what they open alone.
+namespace {
+
+struct Straight {
+  Eigen::Vector2d begin, end;
+};
+
+/// From a joint, in pieces that are ever longer: acute corners bend within their last millimetre. `backward`:
+/// from the far end to the joint.
+std::vector<Straight> from_joint(double degrees, double length, bool backward = false) {
+  constexpr double finest = 0.15, growth = 1.5, coarsest = 0.6;
+  const double angle = degrees * std::numbers::pi / 180;
+  const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+  std::vector<Straight> result;
+  double from = 0;
+  for (double piece = finest; from < length; piece = std::min(coarsest, growth * piece)) {
+    const double to = from + 1.5 * piece < length ? from + piece : length;
+    result.push_back({from * along, to * along});
+    from = to;
+  }
+  if (backward) {
+    std::ranges::reverse(result);
+    for (Straight& piece : result) std::swap(piece.begin, piece.end);
+  }
+  return result;
+}
+
+std::vector<Straight> joined(std::vector<Straight> pieces, const std::vector<Straight>& more) {
+  pieces.insert(pieces.end(), more.begin(), more.end());
+  return pieces;
+}
+
+/// How pieces open in skin with a tension along each axis, along and across each.
+Eigen::VectorXd opened(const CutMembrane& membrane, const std::vector<Straight>& cuts,
+                       const Eigen::Vector2d& tension) {
+  const auto count = static_cast<Eigen::Index>(cuts.size());
+  Eigen::MatrixXd taken(2 * count, 2 * count);
+  Eigen::VectorXd tractions(2 * count);
+  for (Eigen::Index to = 0; to < count; ++to) {
+    const Eigen::Vector2d middle = (cuts[to].begin + cuts[to].end) / 2,
+                          along = (cuts[to].end - cuts[to].begin).normalized();
+    Eigen::Matrix2d frame;
+    frame << along.x(), -along.y(), along.y(), along.x();
+    tractions.segment<2>(2 * to) = frame.transpose() * tension.cwiseProduct(frame.col(1));
+    for (Eigen::Index from = 0; from < count; ++from)
+      taken.block<2, 2>(2 * to, 2 * from) = membrane.relief(frame.transpose() * (cuts[from].begin - middle),
+                                                            frame.transpose() * (cuts[from].end - middle));
+  }
+  return taken.partialPivLu().solve(tractions);
+}
+
+/// The reach of the default skin with cuts 3 mm deep.
+constexpr double default_reach = 17;
+/// Pieces from a joint to the one whose middle is 0.54 mm from it, and to that at 1.22 mm.
+constexpr Eigen::Index half_a_mm = 2, one_mm = 3;
+
+}  // namespace
+
 TEST(CutMembrane, CutsThatCrossOpenAsSimulated) {
-  constexpr double reach = 17, piece = 1.2, along_first = 0.01, across_first = 0.03;
   struct Simulated {
     double degrees, length, first, second;
   };
+  const CutMembrane membrane(default_reach, nu);
   for (const Simulated& s : {Simulated{45, 30, 0.83, 0.27},
                              {45, 50, 0.77, 0.36},
                              {45, 20, 0.88, 0.19},
                              {60, 30, 0.93, 0.15},
                              {75, 30, 0.99, 0.02}}) {
-    struct Straight {
-      Eigen::Vector2d begin, end;
-    };
-    const int of_one = 2 * static_cast<int>(std::lround(s.length / piece / 2));
-    std::vector<Straight> cuts;
-    for (const double angle : {0., s.degrees * std::numbers::pi / 180})
-      for (int i = 0; i < of_one; ++i) {
-        const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
-        cuts.push_back({s.length * (double(i) / of_one - 0.5) * along,
-                        s.length * (double(i + 1) / of_one - 0.5) * along});
-      }
-    const auto count = static_cast<Eigen::Index>(cuts.size());
-    const CutMembrane membrane(reach, nu);
-    Eigen::MatrixXd taken(2 * count, 2 * count);
-    Eigen::VectorXd tractions(2 * count);
-    for (Eigen::Index to = 0; to < count; ++to) {
-      const Eigen::Vector2d middle = (cuts[to].begin + cuts[to].end) / 2,
-                            along = (cuts[to].end - cuts[to].begin).normalized();
-      Eigen::Matrix2d frame;
-      frame << along.x(), -along.y(), along.y(), along.x();
-      const Eigen::Vector2d across = frame.col(1);
-      tractions.segment<2>(2 * to) =
-          frame.transpose() * Eigen::Vector2d(along_first * across.x(), across_first * across.y());
-      for (Eigen::Index from = 0; from < count; ++from)
-        taken.block<2, 2>(2 * to, 2 * from) = membrane.relief(frame.transpose() * (cuts[from].begin - middle),
-                                                              frame.transpose() * (cuts[from].end - middle));
-    }
-    const Eigen::VectorXd both = taken.partialPivLu().solve(tractions);
+    const Eigen::Vector2d tension(0.01, 0.03);
+    std::array<std::vector<Straight>, 2> cuts;
+    for (const int cut : {0, 1})
+      cuts[cut] = joined(from_joint(180 + cut * s.degrees, s.length / 2, true),
+                         from_joint(cut * s.degrees, s.length / 2));
+    const Eigen::VectorXd both = opened(membrane, joined(cuts[0], cuts[1]), tension);
+    const auto of_one = static_cast<Eigen::Index>(cuts[0].size());
     const auto over_alone = [&](int cut) {
-      const Eigen::Index first = 2 * cut * of_one, beside = of_one + 1;
-      const Eigen::VectorXd alone = taken.block(first, first, 2 * of_one, 2 * of_one)
-                                        .partialPivLu()
-                                        .solve(tractions.segment(first, 2 * of_one));
-      return both(first + beside) / alone(beside);
+      const Eigen::Index beside = 2 * (of_one / 2 + half_a_mm) + 1;
+      return both(2 * cut * of_one + beside) / opened(membrane, cuts[cut], tension)(beside);
     };
     EXPECT_NEAR(over_alone(0), s.first, 0.05) << s.degrees << " degrees, " << s.length << " mm";
     EXPECT_NEAR(over_alone(1), s.second, 0.05) << s.degrees << " degrees, " << s.length << " mm";
   }
+}
+
+// The corner between a branch and the cut that it leaves is thin, and bends toward either. Openings of the
+// simulated default case with elements of 0.5 mm, over that in the middle of a cut of 30 mm in skin that is
+// pulled by 0.03 MPa across it (5.51 mm).
+TEST(CutMembrane, AcuteCornersOfABranchMoveAsSimulated) {
+  const CutMembrane membrane(default_reach, nu);
+  const std::vector<Straight> before = from_joint(180, 15, true), behind = from_joint(0, 15),
+                              branch = from_joint(45, 20), whole = joined(before, behind);
+  const auto middle = static_cast<Eigen::Index>(before.size());
+  const double usual = opened(membrane, whole, {0.01, 0.03})(2 * middle + 1);
+  const Eigen::VectorXd all = opened(membrane, joined(whole, branch), {0.03, 0.01}) / usual;
+  const auto at = [&](Eigen::Index piece) -> Eigen::Vector2d { return all.segment<2>(2 * piece); };
+  const Eigen::Vector2d of_cut = at(middle + one_mm), of_branch = at(2 * middle + one_mm);
+  EXPECT_NEAR(of_cut.x(), 2.505 / 5.51, 0.05);
+  EXPECT_NEAR(of_cut.y(), 0.995 / 5.51, 0.05);
+  EXPECT_NEAR(of_branch.x(), -2.657 / 5.51, 0.05);
+  EXPECT_NEAR(of_branch.y(), 3.557 / 5.51, 0.05);
 }
 
 TEST(CutMembrane, NearTheEndsOfAnArcItSlidesAndOpensAsItsStressIntensities) {
