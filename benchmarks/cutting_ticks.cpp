@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "explorer/scalpel/hand_script.h"
@@ -123,7 +124,8 @@ class Ticks {
     times_.push_back(static_cast<double>(clock_time(CLOCK_THREAD_CPUTIME_ID) - before));
   }
   std::vector<double> checked() const {
-    if (cutting_.cut_length() < 50) throw std::runtime_error("the blade did not cut all its way");
+    if (const double cut = cutting_.cut_length(); cut < 50)
+      throw std::runtime_error("the blade cut " + std::to_string(cut) + " mm, not all its way");
     return times_;
   }
 
