@@ -25,7 +25,7 @@ constexpr double farthest = 4;
 /// Of the cosine between two normals: with less, the skin has turned away.
 constexpr double turned_away = 0.1;
 /// The reach in which cuts that do not touch feel each other, over that with which one opens, and the
-/// springs: so openings of simulated parallel cuts, 4 to 12 mm apart, are off by 0.01. With the springs of
+/// springs: so openings of simulated parallel cuts, 4 to 10 mm apart, are off by 0.01. With the springs of
 /// cuts that touch, the one between two others, 8 mm from both, is off by 0.1.
 constexpr double reach_apart = 0.87;
 constexpr CutMembrane::Springs springs_apart{-0.11, 2.19, 0.1};
@@ -84,6 +84,37 @@ struct Joint {
   std::optional<Vec3> place;  ///< mm, the same for all cuts that touch there; none where stretches end anyway
 };
 
+/// Where a cut begins, touches others and ends, without joints that are nearer to each other than
+/// `shortest_way` (mm). What is beyond cuts that it begins and ends in opens nothing.
+std::vector<Joint> ends_of(const Wound& wound, std::vector<Joint> joints, double shortest_way) {
+  std::ranges::sort(joints, {}, &Joint::s);
+  Joint start{0, {}}, end{wound.complete(), {}};
+  const auto joined = [&](Joint& own, const Joint& joint, bool at_end) {
+    own.place = joint.place;
+    if (wound.volume.mouth(at_end)) own.s = joint.s;
+  };
+  if (!joints.empty() && joints.front().s < shortest_way) joined(start, joints.front(), false);
+  if (!joints.empty() && end.s - joints.back().s < shortest_way) joined(end, joints.back(), true);
+  std::vector<Joint> result = {start};
+  for (const Joint& joint : joints)
+    if (joint.s - result.back().s >= shortest_way && end.s - joint.s >= shortest_way) result.push_back(joint);
+  result.push_back(end);
+  return result;
+}
+
+/// Where the pieces of a stretch meet, as parts of it, with so many stretches between it and a joint before
+/// it and behind it.
+std::vector<double> between_pieces(int from_joint, int to_joint) {
+  std::vector<double> result;
+  for (const double part : next_to_joint) {
+    if (from_joint == 0) result.push_back(part);
+    if (to_joint == 0) result.push_back(1 - part);
+  }
+  std::ranges::sort(result);
+  if (result.empty() && std::min(from_joint, to_joint) < halved_stretches) result.push_back(0.5);
+  return result;
+}
+
 /// A cut in stretches, each of one or some straight pieces.
 struct Cut {
   struct Piece {
@@ -101,50 +132,20 @@ struct Cut {
     const double length = wound.complete();
     const double stretch =
         std::clamp(canonical_stretch(wound), length / most_stretches, length / fewest_stretches);
-    std::ranges::sort(joints, {}, &Joint::s);
-    Joint start{0, {}}, end{length, {}};
-    // What is beyond cuts that it begins and ends in opens nothing.
-    if (!joints.empty() && joints.front().s < shortest * stretch) {
-      start.place = joints.front().place;
-      if (wound.volume.mouth(false)) start.s = joints.front().s;
-    }
-    if (!joints.empty() && length - joints.back().s < shortest * stretch) {
-      end.place = joints.back().place;
-      if (wound.volume.mouth(true)) end.s = joints.back().s;
-    }
-    std::vector<Joint> ends = {start};
-    for (const Joint& joint : joints)
-      if (joint.s - ends.back().s >= shortest * stretch && end.s - joint.s >= shortest * stretch)
-        ends.push_back(joint);
-    ends.push_back(end);
-    corners.push_back(start.s);
+    const std::vector<Joint> ends = ends_of(wound, std::move(joints), shortest * stretch);
+    corners.push_back(ends.front().s);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      const double way = ends[i + 1].s - ends[i].s;
-      const int count = std::max(1, static_cast<int>(std::lround(way / stretch)));
-      const auto from_joints = [&](int before, int behind) {
-        return std::min(ends[i].place ? before : count, ends[i + 1].place ? behind : count);
-      };
+      const Joint &from = ends[i], &to = ends[i + 1];
+      const int count = std::max(1, static_cast<int>(std::lround((to.s - from.s) / stretch)));
+      const std::size_t first = pieces.size();
       for (int k = 0; k < count; ++k) {
-        const double from = corners.back(), to = std::lerp(ends[i].s, ends[i + 1].s, (k + 1.) / count);
-        std::vector<double> parts = {0};
-        const int next = from_joints(k, count - 1 - k);
-        if (next == 0 && !alone) {
-          for (const double part : next_to_joint) {
-            if (k == 0 && ends[i].place) parts.push_back(part);
-            if (k == count - 1 && ends[i + 1].place) parts.push_back(1 - part);
-          }
-          std::ranges::sort(parts);
-        } else if (alone || next < std::min(count, halved_stretches)) {
-          parts.push_back(0.5);
-        }
-        parts.push_back(1);
-        for (std::size_t n = 0; n + 1 < parts.size(); ++n)
-          add(wound, std::lerp(from, to, parts[n]), std::lerp(from, to, parts[n + 1]));
-        end_stretch(to);
-        if (k == 0 && ends[i].place)
-          pieces[static_cast<std::size_t>(first_pieces.end()[-2])].begin = *ends[i].place;
+        const int from_joint = from.place ? k : halved_stretches,
+                  to_joint = to.place ? count - 1 - k : halved_stretches;
+        add_stretch(wound, std::lerp(from.s, to.s, (k + 1.) / count),
+                    alone ? std::vector{0.5} : between_pieces(from_joint, to_joint));
       }
-      if (ends[i + 1].place) pieces.back().end = *ends[i + 1].place;
+      if (from.place) pieces[first].begin = *from.place;
+      if (to.place) pieces.back().end = *to.place;
     }
   }
 
@@ -210,11 +211,19 @@ struct Cut {
   }
 
  private:
-  void add(const Wound& wound, double from, double to) {
-    const double scale = wound.scale(), middle = (from + to) / 2;
+  /// On to `end`, mm, in pieces that meet at these parts of it.
+  void add_stretch(const Wound& wound, double end, std::vector<double> parts) {
+    const double begin = corners.back(), scale = wound.scale();
     const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
-    pieces.push_back(
-        {place(from), place(middle), place(to), wound.volume.skin_frame(middle / scale), middle});
+    parts.push_back(1);
+    double from = begin;
+    for (const double part : parts) {
+      const double to = std::lerp(begin, end, part), middle = (from + to) / 2;
+      pieces.push_back(
+          {place(from), place(middle), place(to), wound.volume.skin_frame(middle / scale), middle});
+      from = to;
+    }
+    end_stretch(end);
   }
   void end_stretch(double at) {
     corners.push_back(at);

@@ -197,14 +197,14 @@ class AtStations {
           between_.emplace_back(i, station);
           continue;
         }
-        const double leaning = leaning_at(s, cut, opening);
+        const double leans = leaning_at(s, cut, opening);
         const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
         for (std::size_t j = 0; j < cuts.size(); ++j) {
           if (j == i) continue;
           const auto add = [&](const std::optional<ActiveVertex>& at, double part) {
             if (!at || part == 0) return;
             const bool complete = j + 1 < cuts.size();
-            places_.push_back({i, j, station, at->s, part * leaning * more_beside(*cuts[j], *at),
+            places_.push_back({i, j, station, at->s, part * leans * more_beside(*cuts[j], *at),
                                complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
                                normal});
           };

@@ -74,8 +74,6 @@ TEST(CutMembrane, ALongCutOpensAsAnEndlessOne) {
   }
 }
 
-/// Two cuts that cross in their middles in skin that is pulled 1 : 3, the second across the first one.
-/// Simulated with elements of 0.5 mm, beside the crossing they open by these parts of what they open alone.
 namespace {
 
 struct Straight {
@@ -133,6 +131,8 @@ constexpr Eigen::Index half_a_mm = 2, one_mm = 3;
 
 }  // namespace
 
+/// Two cuts that cross in their middles in skin that is pulled 1 : 3, the second across the first one.
+/// Simulated with elements of 0.5 mm, beside the crossing they open by these parts of what they open alone.
 TEST(CutMembrane, CutsThatCrossOpenAsSimulated) {
   struct Simulated {
     double degrees, length, first, second;
