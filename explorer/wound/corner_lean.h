@@ -11,21 +11,16 @@ namespace cleft {
 struct CornerLean {
   double before, after;  ///< how the lips before and behind it lean (Amplitude::leans)
   double share;          ///< 1; less where one of the cuts has not opened beyond the crossing's corners
-  double reach;          ///< mm along the cut, over which this falls by e
+  double reach_before, reach_after;  ///< mm along the cut to either side, over which this falls by e
 
-  /// How far it counts so many mm from the crossing.
-  double at(double away) const;
+  /// How far it counts so many mm from the crossing, before it below 0.
+  double at(double from) const;
 };
 
 /// Of the lips of `crossing.cut`, as the cuts open it in the membrane, with the blade of the last cut there.
-CornerLean lean_at_crossing(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
-                            const std::vector<Amplitude>& in_membrane);
-
-/// Likewise where cut `later` opens into `cut` at s mm of its path, with its start or its end: two corners
-/// against a straight lip.
-CornerLean lean_at_mouth(std::size_t cut, double s, std::size_t later, bool at_end,
-                         const std::vector<const Wound*>& cuts, double blade,
-                         const std::vector<Amplitude>& in_membrane);
+/// Where the other one opens into it, of two corners against a straight lip.
+CornerLean lean_at(const Crossing& crossing, const std::vector<const Wound*>& cuts, double blade,
+                   const std::vector<Amplitude>& in_membrane);
 
 /// Where cut `later` opens into `cut`, it shears the tissue on its own side of it: which part of the shear at
 /// s mm of the path of `cut` is taken from there, and not from the other side. All is where the walls of both

@@ -167,7 +167,7 @@ void LiveReplay::enter() {
 
 BesideCut LiveReplay::beside_of(const ActiveVertex& vertex) const {
   BesideCut beside(vertex, wound_);
-  beside.keep_with_own_piece(vertex, number_, cuts_, crossings_);
+  beside.keep_with_own_piece(vertex, vertex.vertex, number_, cuts_, crossings_);
   return beside;
 }
 
@@ -176,7 +176,7 @@ void LiveReplay::cross(std::size_t cut, std::vector<const Wound*> cuts, std::vec
   for (const int v : entered()) {
     BesideCut& beside = beside_[static_cast<std::size_t>(v) + 1];
     const bool near = std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& one) {
-      return one.cut == number_ && std::abs(beside.s - one.s) < one.fades;
+      return one.cut == number_ && std::abs(beside.s - one.s) < one.reach();
     });
     if (!near) continue;
     if (const auto at = volume_.locate(v)) beside = beside_of(*at);

@@ -2,83 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "base/stations.h"
 #include "explorer/wound/corner_lean.h"
 #include "explorer/wound/membrane_relief.h"
-#include "explorer/wound/room.h"
+#include "explorer/wound/shear_lean.h"
 
 namespace cleft {
 
 namespace {
 
-/// How far a cut is taken to open at most, over what it would alone, where others add to the tension. Beyond,
-/// cuts nearly meet end to end.
-constexpr double most = 3;
 /// Of a cut's path, in which the relief is taken as linear: a fiftieth of it turns amplitudes by little.
 /// Steps also end where the cut meets others: corners of a crossing part when the blade has passed it, and
 /// not before. As parts of the path, steps that are closer than that are one.
 constexpr int steps = 48;
 constexpr double least_step = 1e-9;
 
-/// How far lips lean in all, over how far the other cut shears the tissue above the bottom: of simulated
-/// parallel cuts 10 to 60 mm long, 3 and 5 mm deep and 4 to 20 mm apart, in tissue of 0.008 to 0.05 MPa.
-constexpr double leaning = 1.2;
-/// Next to a shallow cut lips lean more, by so many times what the skin's thickness over the cut's depth is
-/// above the least one. That counts in full up to so many depths from the cut, and falls to nothing at so
-/// many. Of simulated parallel cuts 4 mm apart, and cuts that cross, 2, 3 and 5 mm deep.
-constexpr double more_leaning = 0.95, least_thickness = 0.3, leans_more_to = 4. / 3,
-                 leans_as_others_from = 2.5;
-/// Depths of the cut: what lips lean falls to nothing over so much before an end, and by e so far from them.
-constexpr double leans_fully = 0.6, leaning_reach = 2. / 3;
-/// The shear is summed over parts of the cut's depth, each taken in its middle, and is the mean at two Gauss
-/// points of a part of the depth to either side. Nearer to the other cut than its depth it is as so far from
-/// it: next to a wall the tissue is free of shear, but the strip between the walls sinks as a whole. Along
-/// the other cut it is a difference over that part: next to its front, derivatives of a field jump.
-constexpr int layers = 6;
-constexpr double reach = 0.5;
-const double gauss = 1 / std::numbers::sqrt3;
-/// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross. Of that, so
-/// far from the crossing along a cut its corners are, and ends what keeps them from parting.
-constexpr double lean_fades = 0.1, corner_part = 0.5, parts_within = 2;
+/// Of what lips change sides over where cuts cross, so far ends what keeps their corners from parting.
+constexpr double parts_within = 2;
 /// Depths to either side of where another cut opens into this one, over which what its field does not move of
 /// the lips is linear: the lip beyond is whole there.
 constexpr double mouth_reach = 0.5;
-/// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
-constexpr double turned_away = 0.1;
-
-/// By how much further than the bottom of a cut there another cut's field moves the skin along `n`, mm: as
-/// the shear of the tissue tells it, with which the sides of the cut turn up and down.
-double shear_across(const Wound& other, const ActiveVertex& at, const Vec3& n, double blade) {
-  const CanonicalCut& cut = other.field.shape().cut();
-  const double t = at.time_at(blade, cut.length);
-  double a = dot(n, at.along), b = dot(n, normalized(at.across));
-  const double length = std::hypot(a, b);
-  if (length < turned_away) return 0;
-  a /= length, b /= length;
-  const auto shear = [&](double v, double w) {
-    const Derivatives d = other.field.derivatives({at.uvw.x, v, w}, at.side, t, at.s);
-    const double from = at.uvw.x - reach * cut.depth, to = at.uvw.x + reach * cut.depth;
-    const double rises = (other.field.displacement({to, v, w}, at.side, t, at.s).z -
-                          other.field.displacement({from, v, w}, at.side, t, at.s).z) /
-                         (to - from);
-    return at.weight * (a * (d.by_w.x + rises) + b * (d.by_w.y + d.by_v.z));
-  };
-  const double beside = std::max(std::abs(at.uvw.y), cut.depth);
-  double sum = 0;
-  for (const double distance : {beside - gauss * reach * cut.depth, beside + gauss * reach * cut.depth}) {
-    const double v = std::copysign(distance, at.side == Side::left    ? -1.
-                                             : at.side == Side::right ? 1.
-                                                                      : at.uvw.y);
-    for (int i = 0; i < layers; ++i)
-      sum += cut.depth / layers * shear(v, -cut.depth * (i + 0.5) / layers) / 2;
-  }
-  return sum * std::min(1., std::abs(at.uvw.y) / (lean_fades * cut.depth));
-}
+/// Depths from an end of a cut, within which its opening is too small to tell how far branches move its lips.
+constexpr double beside_end = 0.2;
+/// Of how far beside it corners part: lips so near are its corners themselves. Of the blade's way until they
+/// part, that until they are free.
+constexpr double at_corners = 1e-3, parted_over = 0.5;
 
 /// How far a complete cut alone opens across, mm.
 double opening_at(double s, const Wound& wound) {
@@ -90,25 +41,6 @@ double opening_at(double s, const Wound& wound) {
          wound.field.displacement({u, 0, 0}, Side::left, t, s).y;
 }
 
-/// What lips lean for each mm of shear, over that. What leans is held by what is next to it, and so falls
-/// toward the ends of a cut over its depth alone.
-double leaning_at(double s, const Wound& wound, double opening) {
-  const CanonicalCut& cut = wound.field.shape().cut();
-  if (!(opening > 0)) return 0;
-  double from_end = std::numeric_limits<double>::infinity();
-  if (!wound.volume.mouth(false)) from_end = s;
-  if (!wound.volume.mouth(true)) from_end = std::min(from_end, wound.complete() - s);
-  return leaning / opening * std::sqrt(std::clamp(from_end / (leans_fully * cut.depth), 0., 1.));
-}
-
-/// How many times as far lips lean at a place beside another cut as further away from it.
-double more_beside(const Wound& other, const ActiveVertex& at) {
-  const double depth = other.depth(at.s), depths = std::abs(at.uvw.y) / depth;
-  const double more = std::max(0., more_leaning * (other.skin_thickness() / depth - least_thickness));
-  return 1 +
-         more * std::clamp((leans_as_others_from - depths) / (leans_as_others_from - leans_more_to), 0., 1.);
-}
-
 }  // namespace
 
 Amplitude::At Amplitude::operator()(double s) const {
@@ -117,53 +49,6 @@ Amplitude::At Amplitude::operator()(double s) const {
     return list.empty() ? 0 : a == b ? list[a] : (1 - of_b) * list[a] + of_b * list[b];
   };
   return {in(values), in(leans), in(shifts)};
-}
-
-BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound)
-    : s(vertex.s), along(vertex.along), outward(vertex.outward) {
-  const CanonicalCut& cut = wound.field.shape().cut();
-  across = std::exp(-std::abs(vertex.uvw.y) / (leaning_reach * cut.depth)) * vertex.across;
-}
-
-std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts) {
-  std::vector<Crossing> found;
-  for (std::size_t i = 0; i < cuts.size(); ++i)
-    for (std::size_t j = 0; j < cuts.size(); ++j) {
-      if (i == j) continue;
-      const Wound &cut = *cuts[i], &other = *cuts[j];
-      const double depth = other.field.shape().cut().depth;
-      for (const double s : touched_at(cut, other)) {
-        const Vec3 place = cut.scale() / other.scale() * cut.incision->path().at(s / cut.scale()).position;
-        const double other_s = other.scale() * other.incision->path().coordinates(place).s;
-        const double sine = dot(cut.volume.skin_frame(s / cut.scale()).along,
-                                other.volume.skin_frame(other_s / other.scale()).across);
-        if (std::abs(sine) < turned_away) continue;
-        const double fades = lean_fades * depth / std::abs(sine);
-        const auto inside = [fades](double at, double length) { return fades < at && at < length - fades; };
-        if (inside(s, cut.complete()) && inside(other_s, other.complete()))
-          found.push_back({i, j, s, other_s, fades, sine > 0 ? 1. : -1.});
-      }
-    }
-  return found;
-}
-
-void BesideCut::keep_with_own_piece(const ActiveVertex& vertex, std::size_t cut,
-                                    const std::vector<const Wound*>& cuts,
-                                    std::span<const Crossing> crossings) {
-  for (const Crossing& crossing : crossings) {
-    if (crossing.cut != cut) continue;
-    const double from = vertex.s - crossing.s, away = std::hypot(from, vertex.uvw.y) / crossing.fades;
-    if (away >= 1) continue;
-    const std::optional<ActiveVertex> in_other = cuts[crossing.other]->volume.locate(vertex.vertex);
-    if (!in_other) continue;
-    const double side = in_other->side == Side::left    ? -1
-                        : in_other->side == Side::right ? 1
-                        : in_other->uvw.y < 0           ? -1
-                                                        : 1;
-    // Both cuts part the corners: half of how far these are apart is due to each. Along a lip the part of the
-    // other cut falls as that of its own grows.
-    s += (1 - away) * corner_part * crossing.toward * side * crossing.fades;
-  }
 }
 
 Relief::At Relief::at(double part) const {
@@ -184,7 +69,7 @@ namespace {
 class AtStations {
  public:
   explicit AtStations(const std::vector<const Wound*>& cuts)
-      : cuts_(cuts), crossings_(crossings_of(cuts)), alone_(cuts.size()) {
+      : cuts_(cuts), crossings_(crossings_of(cuts)), alone_(cuts.size()), by_shear_(cuts) {
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       const Wound& cut = *cuts[i];
       Amplitude& own = alone_[i];
@@ -197,87 +82,72 @@ class AtStations {
           between_.emplace_back(i, station);
           continue;
         }
-        const double leans = leaning_at(s, cut, opening);
-        const Vec3 normal = cut.volume.skin_frame(s / cut.scale()).across;
+        by_shear_.add({i, station, s, opening, lips->first, lips->second});
         for (std::size_t j = 0; j < cuts.size(); ++j) {
-          if (j == i) continue;
-          const auto add = [&](const std::optional<ActiveVertex>& at, double part) {
-            if (!at || part == 0) return;
-            const bool complete = j + 1 < cuts.size();
-            places_.push_back({i, j, station, at->s, part * leans * more_beside(*cuts[j], *at),
-                               complete ? shear_across(*cuts[j], *at, normal, cuts[j]->complete()) : 0, *at,
-                               normal});
-          };
-          const std::optional<ActiveVertex> left = cuts[j]->volume.locate(lips->first);
-          const IncisionVolume::Mouth* mouth = mouth_between(*cuts[j], cut);
-          if (!mouth) {
-            add(left, 1);
-            continue;
-          }
-          const std::optional<ActiveVertex> right = cuts[j]->volume.locate(lips->second);
-          if (left && right && opening > 0)
-            parted_.push_back({i, j, station, left->s, opening, *left, *right});
-          const double beside = beside_branch(cut, s, *cuts[j]);
-          add(mouth->right ? right : left, beside);
-          add(mouth->right ? left : right, 1 - beside);
+          if (j == i || !opens_into(*cuts[j], cut) || !(opening > 0)) continue;
+          const std::optional<ActiveVertex> left = cuts[j]->volume.locate(lips->first),
+                                            right = cuts[j]->volume.locate(lips->second);
+          if (left && right) parted_.push_back({i, j, station, left->s, opening, *left, *right});
         }
       }
-      for (std::size_t j = 0; j < cuts.size(); ++j)
-        for (const bool at_end : {false, true}) {
-          const std::optional<double> mouth = cut.mouth_of(*cuts[j], at_end);
-          if (!mouth) continue;
-          const double beside = beside_mouth(cut, *mouth);
-          const auto first = std::ranges::lower_bound(own.stations, *mouth - beside),
-                     last = std::ranges::upper_bound(own.stations, *mouth + beside);
-          if (first != own.stations.begin() && last != own.stations.end())
-            mouths_.push_back({i, j, at_end, *mouth,
-                               static_cast<std::size_t>(first - own.stations.begin()) - 1,
-                               static_cast<std::size_t>(last - own.stations.begin())});
-        }
       own.values.assign(own.stations.size(), 1);
       own.leans = own.shifts = std::vector<double>(own.stations.size(), 0);
+    }
+    for (const Crossing& mouth : crossings_) {
+      if (mouth.branch == 0) continue;
+      const std::vector<double>& s = alone_[mouth.cut].stations;
+      const double beside = beside_mouth(mouth);
+      const auto first = std::ranges::lower_bound(s, mouth.s - beside),
+                 last = std::ranges::upper_bound(s, mouth.s + beside);
+      if (first == s.begin() || last == s.end()) continue;
+      mouths_.push_back({mouth, static_cast<std::size_t>(first - s.begin()) - 1,
+                         static_cast<std::size_t>(last - s.begin()),
+                         static_cast<std::size_t>(std::ranges::lower_bound(s, mouth.s) - s.begin())});
     }
   }
 
   std::vector<Amplitude> with_blade_at(double blade, const std::vector<Amplitude>& in_membrane) const {
     std::vector<Amplitude> result = alone_;
-    lean_by_shear(blade, in_membrane, result);
-    std::vector<Amplitude> by_branches = moved_by_branches(blade, in_membrane);
-    fill_between(result, by_branches);
+    ShearLean::Leans leans = by_shear_.leans(blade, in_membrane);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i].leans = total(leans[i], result[i].leans.size());
+    std::vector<Amplitude> by_branches = moved_by_branches(blade, in_membrane, result);
+    fill_between(leans, by_branches);
     std::vector<double> parted;
     for (const Crossing& crossing : crossings_) {
-      const CornerLean corners = lean_at_crossing(crossing, cuts_, blade, in_membrane);
-      lean_by_corners(crossing, corners, result[crossing.cut]);
+      const CornerLean corners = lean_at(crossing, cuts_, blade, in_membrane);
+      if (crossing.branch == 0)
+        lean_by_corners(crossing, corners, alone_[crossing.cut].stations,
+                        leans[crossing.cut][crossing.other]);
+      else
+        lean_beside(crossing, corners, alone_[crossing.cut].stations, leans[crossing.cut][crossing.other]);
       parted.push_back(corners.share);
     }
-    for (const Mouth& mouth : mouths_)
-      lean_beside(mouth, lean_at_mouth(mouth.cut, mouth.s, mouth.by, mouth.at_end, cuts_, blade, in_membrane),
-                  result[mouth.cut]);
-    for (std::size_t i = 0; i < result.size(); ++i)
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i].leans = total(leans[i], result[i].leans.size());
       for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
         const Amplitude& other = by_branches[i];
-        const Amplitude::At there = in_membrane[i](result[i].stations[k]);
+        const Amplitude::At there = in_membrane[i](result[i].stations[next_to(i, k)]);
         result[i].leans[k] = std::clamp(result[i].leans[k] - other.leans[k], -most_lean, most_lean);
-        result[i].values[k] = std::min(most, std::max(0., there.value - other.values[k]));
+        result[i].values[k] = std::min(most_opening, std::max(0., there.value - other.values[k]));
         result[i].shifts[k] = std::clamp(there.shift - other.shifts[k], -most_shift, most_shift);
       }
-    for (const Mouth& mouth : mouths_) join_over_mouth(mouth, result[mouth.cut]);
-    for (std::size_t i = 0; i < crossings_.size(); ++i)
-      part_corners(crossings_[i], parted[i], result[crossings_[i].cut]);
+    }
+    for (const Mouth& mouth : mouths_) keep_opening(mouth, result[mouth.at.cut]);
+    const std::vector<Amplitude> wanted = result;
+    for (const Mouth& mouth : mouths_) join_over_mouth(mouth, result[mouth.at.cut]);
+    for (const Mouth& mouth : mouths_) part_lip(mouth, wanted[mouth.at.cut], result[mouth.at.cut]);
+    for (const Crossing& mouth : crossings_)
+      if (mouth.branch != 0) result[mouth.cut].free.push_back(free_corners(mouth, blade));
+    for (std::size_t i = 0; i < crossings_.size(); ++i) {
+      if (crossings_[i].branch != 0) continue;
+      Amplitude& cut = result[crossings_[i].cut];
+      part_corners(crossings_[i], parted[i], cut);
+      for (Amplitude& corners : cut.of_corners) part_corners(crossings_[i], parted[i], corners);
+    }
     return result;
   }
 
  private:
-  /// A station of a cut in the volume of another one.
-  struct Place {
-    std::size_t cut, by, station;
-    double s;        // mm, along the other's path
-    double leaning;  // for each mm of shear
-    double shear;    // mm, of the other one where it is complete
-    ActiveVertex at;
-    Vec3 normal;  // across the own path
-  };
-
   /// Lips of a cut in the volume of another one that opens into it, and moves them differently.
   struct Parted {
     std::size_t cut, by, station;
@@ -286,41 +156,31 @@ class AtStations {
     ActiveVertex left, right;
   };
 
-  /// Stations of a cut, between which another one opens into it.
+  /// Where another cut opens into one, the stations between which its other lip is joined.
   struct Mouth {
-    std::size_t cut, by;
-    bool at_end;  // of the other one
-    double s;     // mm
-    std::size_t first, last;
+    Crossing at;
+    std::size_t first, last, behind;  // and that of the corner behind it, after that of the other one
   };
 
-  /// Null unless the later cut begins or ends in the other one.
-  static const IncisionVolume::Mouth* mouth_between(const Wound& later, const Wound& cut) {
-    for (const bool at_end : {false, true})
-      if (const auto& mouth = later.volume.mouth(at_end); mouth && mouth->earlier == cut.incision)
-        return &*mouth;
-    return nullptr;
-  }
-
   /// mm of a cut to either side of where another one opens into it.
-  static double beside_mouth(const Wound& cut, double s) {
-    return std::min({mouth_reach * cut.field.shape().cut().depth, s / 2, (cut.complete() - s) / 2});
+  double beside_mouth(const Crossing& mouth) const {
+    const Wound& cut = *cuts_[mouth.cut];
+    return std::min(
+        {mouth_reach * cut.field.shape().cut().depth, mouth.s / 2, (cut.complete() - mouth.s) / 2});
   }
 
   using Lips = std::pair<int, int>;
+  using Station = std::pair<double, std::optional<Lips>>;
   /// The lips of a cut's chain, and places without: where lips change the side to which they lean, and where
   /// another cut opens into it.
-  std::vector<std::pair<double, std::optional<Lips>>> stations_of(std::size_t cut) const {
-    std::vector<std::pair<double, std::optional<Lips>>> result;
-    std::vector<double> mouths;
-    for (const Wound* later : cuts_)
-      for (const bool at_end : {false, true})
-        if (const auto at = cuts_[cut]->mouth_of(*later, at_end)) mouths.push_back(*at);
+  std::vector<Station> stations_of(std::size_t cut) const {
+    std::vector<Station> result;
     for (const Incision::ChainVertex& c : cuts_[cut]->incision->chain()) {
       const double s = c.s * cuts_[cut]->scale();
-      const bool at_mouth = std::ranges::any_of(
-          mouths, [&](double mouth) { return std::abs(s - mouth) < beside_mouth(*cuts_[cut], mouth); });
-      result.emplace_back(s, at_mouth ? std::nullopt : std::optional<Lips>({c.left, c.right}));
+      const bool at_corner = std::ranges::any_of(crossings_, [&](const Crossing& mouth) {
+        return mouth.cut == cut && mouth.branch != 0 && std::abs(s - mouth.s) < at_corners * mouth.fades;
+      });
+      result.emplace_back(s, at_corner ? std::nullopt : std::optional<Lips>({c.left, c.right}));
     }
     // Its ends have lips.
     for (const std::size_t end : {std::size_t{0}, result.empty() ? 0 : result.size() - 1})
@@ -331,12 +191,22 @@ class AtStations {
     const double first = result.empty() ? 0 : result.front().first,
                  last = result.empty() ? 0 : result.back().first;
     for (const Crossing& crossing : crossings_)
-      if (crossing.cut == cut)
+      if (crossing.cut == cut && crossing.branch == 0)
         for (const double fades : {-parts_within, -1., 0., 1., parts_within})
           if (const double s = crossing.s + fades * crossing.fades; first < s && s < last)
             result.emplace_back(s, std::nullopt);
-    std::stable_sort(result.begin(), result.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto earlier = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::stable_sort(result.begin(), result.end(), earlier);
+    for (const Crossing& mouth : crossings_) {
+      if (mouth.cut != cut || mouth.branch == 0 || !(first < mouth.before() && mouth.behind() < last))
+        continue;
+      std::erase_if(result, [&](const Station& station) {
+        return !station.second && std::abs(station.first - mouth.s) < at_corners * mouth.fades;
+      });
+      const Station corners[] = {{mouth.before(), std::nullopt}, {mouth.behind(), std::nullopt}};
+      result.insert(std::ranges::upper_bound(result, mouth.s, {}, &Station::first), std::begin(corners),
+                    std::end(corners));
+    }
     return result;
   }
 
@@ -347,60 +217,93 @@ class AtStations {
     return station;
   }
 
-  void lean_by_shear(double blade, const std::vector<Amplitude>& in_membrane,
-                     std::vector<Amplitude>& result) const {
-    for (const Place& place : places_) {
-      const double shear = place.by + 1 < cuts_.size()
-                               ? place.shear
-                               : shear_across(*cuts_[place.by], place.at, place.normal, blade);
-      double& lean = result[place.cut].leans[place.station];
-      lean += place.leaning * shear * std::min(most, in_membrane[place.by].at(place.s));
-      lean = std::clamp(lean, -most_lean, most_lean);
-    }
+  /// The station itself; of a corner beside a mouth that of the lip next to it, from where what the membrane
+  /// tells leads to the other corner.
+  std::size_t next_to(std::size_t cut, std::size_t station) const {
+    for (const Mouth& mouth : mouths_)
+      if (mouth.at.cut == cut && (station == mouth.behind || station + 1 == mouth.behind))
+        return station == mouth.behind ? station + 1 : station - 1;
+    return station;
   }
 
   /// How far those that open into a cut part its lips themselves, as parts of its own displacement across.
-  std::vector<Amplitude> moved_by_branches(double blade, const std::vector<Amplitude>& in_membrane) const {
+  std::vector<Amplitude> moved_by_branches(double blade, const std::vector<Amplitude>& in_membrane,
+                                           const std::vector<Amplitude>& leaning) const {
     std::vector<Amplitude> result = alone_;
     for (Amplitude& one : result) std::ranges::fill(one.values, 0);
     for (const Parted& lips : parted_) {
       const double at = lips.by + 1 < cuts_.size() ? cuts_[lips.by]->complete() : blade;
+      const Wound& branch = *cuts_[lips.by];
+      Amplitude::At there = in_membrane[lips.by](lips.s);
+      there.lean = leaning[lips.by](lips.s).lean;
+      there.shift = std::clamp(there.shift, -most_shift, most_shift);
       const auto moved = [&](const ActiveVertex& lip) {
-        const VaryingField& field = cuts_[lips.by]->field;
-        const double t = lip.time_at(at, field.shape().cut().length);
-        return lip.in_mesh(field.displacement(lip.uvw, lip.side_at(at), t, lip.s));
+        const double t = lip.time_at(at, branch.field.shape().cut().length);
+        const Vec3 alone = lip.in_mesh(branch.field.displacement(lip.uvw, lip.side_at(at), t, lip.s));
+        const BesideCut beside(lip, branch);
+        return there.value * alone + dot(alone, beside.across) * there.added(beside);
       };
       const Wound& cut = *cuts_[lips.cut];
       const PathFrame frame = cut.volume.skin_frame(alone_[lips.cut].stations[lips.station] / cut.scale());
-      const Vec3 apart =
-          in_membrane[lips.by].at(lips.s) / lips.opening * (moved(lips.right) - moved(lips.left));
+      const Vec3 apart = 1 / lips.opening * (moved(lips.right) - moved(lips.left));
       result[lips.cut].values[lips.station] += dot(apart, frame.across);
       result[lips.cut].shifts[lips.station] += dot(apart, frame.along);
       result[lips.cut].leans[lips.station] += dot(apart, frame.outward);
     }
+    for (std::size_t i = 0; i < result.size(); ++i) as_beside_ends(i, result[i]);
     return result;
   }
 
+  /// Next to an end that is closed, where a cut opens by nothing, it is moved as further away from it.
+  void as_beside_ends(std::size_t cut, Amplitude& moved) const {
+    const Wound& wound = *cuts_[cut];
+    const std::vector<double>& s = moved.stations;
+    const double beside = beside_end * wound.field.shape().cut().depth;
+    const auto first = static_cast<std::size_t>(std::ranges::lower_bound(s, s.front() + beside) - s.begin()),
+               last = static_cast<std::size_t>(std::ranges::upper_bound(s, s.back() - beside) - s.begin());
+    if (first >= last) return;
+    for (std::vector<double>* list : {&moved.values, &moved.shifts, &moved.leans}) {
+      if (!wound.volume.mouth(false)) std::fill_n(list->begin(), first, (*list)[first]);
+      if (!wound.volume.mouth(true))
+        std::fill(list->begin() + static_cast<std::ptrdiff_t>(last), list->end(), (*list)[last - 1]);
+    }
+  }
+
+  /// What lips lean in all, at the stations of a cut.
+  static std::vector<double> total(const std::vector<std::vector<double>>& by_others, std::size_t stations) {
+    std::vector<double> sum(stations, 0);
+    for (const std::vector<double>& one : by_others)
+      for (std::size_t k = 0; k < one.size(); ++k)
+        sum[k] = std::clamp(sum[k] + one[k], -most_lean, most_lean);
+    return sum;
+  }
+
   /// Linear at stations without lips.
-  void fill_between(std::vector<Amplitude>& result, std::vector<Amplitude>& by_branches) const {
+  void fill_between(ShearLean::Leans& leans, std::vector<Amplitude>& by_branches) const {
     for (const auto& [cut, station] : between_) {
-      const std::vector<double>& s = result[cut].stations;
-      const std::size_t next = next_vertex(cut, station);
+      const std::vector<double>& s = alone_[cut].stations;
+      const std::size_t next = next_vertex(cut, station), lip = next_to(cut, station);
       const double part = (s[station] - s[station - 1]) / (s[next] - s[station - 1]);
+      const auto fill = [&, k = station](std::vector<double>& list) {
+        list[k] = lip != k ? list[lip] : std::lerp(list[k - 1], list[next], part);
+      };
       for (std::vector<double>* list :
-           {&result[cut].leans, &by_branches[cut].values, &by_branches[cut].shifts, &by_branches[cut].leans})
-        (*list)[station] = std::lerp((*list)[station - 1], (*list)[next], part);
+           {&by_branches[cut].values, &by_branches[cut].shifts, &by_branches[cut].leans})
+        fill(*list);
+      for (std::vector<double>& by_other : leans[cut])
+        if (!by_other.empty()) fill(by_other);
     }
   }
 
   /// What leans by `lean`, so far `from` corners along the cut, mm, with them.
   static double leaning_as(const CornerLean& corners, double from, double lean) {
-    return std::lerp(lean, from < 0 ? corners.before : corners.after, corners.at(std::abs(from)));
+    return std::lerp(lean, from < 0 ? corners.before : corners.after, corners.at(from));
   }
 
-  static void lean_beside(const Mouth& mouth, const CornerLean& corners, Amplitude& cut) {
-    for (std::size_t k = 0; k < cut.stations.size(); ++k)
-      cut.leans[k] = leaning_as(corners, cut.stations[k] - mouth.s, cut.leans[k]);
+  static void lean_beside(const Crossing& mouth, const CornerLean& corners,
+                          const std::vector<double>& stations, std::vector<double>& leans) {
+    for (std::size_t k = 0; k < stations.size(); ++k)
+      leans[k] = leaning_as(corners, stations[k] - mouth.s, leans[k]);
   }
 
   /// Linear from one side of the mouth to the other.
@@ -414,12 +317,52 @@ class AtStations {
     }
   }
 
+  /// How far the corners beside one that opens into it are free, with the blade of the last cut there: 0
+  /// until all skin that moves with them is cut, then up to 1. One that ends there has opened half-way on
+  /// then.
+  double free_corners(const Crossing& mouth, double blade) const {
+    const Wound& later = *cuts_[mouth.other];
+    if (mouth.other + 1 < cuts_.size()) blade = later.complete();
+    if (!mouth.at_end) return std::clamp((blade - mouth.way) / (parted_over * mouth.way), 0., 1.);
+    const OpenedTo opened_to = later.volume.opened_to();
+    return opened_to.runs_on > 0 ? std::max(0., 2 * opened_to.beyond(blade) / opened_to.runs_on - 1) : 0;
+  }
+
+  /// What parts the corners in the skin's plane is the cut between them alone.
+  static void keep_opening(const Mouth& mouth, Amplitude& cut) {
+    for (std::vector<double>* list : {&cut.values, &cut.shifts}) {
+      double &before = (*list)[mouth.behind - 1], &behind = (*list)[mouth.behind];
+      before = behind = std::midpoint(before, behind);
+    }
+  }
+
+  /// The lip into which another cut opens parts from the other one, which stays whole, by what is wanted.
+  static void part_lip(const Mouth& mouth, const Amplitude& wanted, Amplitude& cut) {
+    if (cut.of_corners.empty()) {
+      const Amplitude whole = cut;
+      cut.of_corners.push_back(whole);
+    }
+    Amplitude& corners = cut.of_corners.front();
+    for (std::size_t k = mouth.first + 1; k < mouth.last; ++k) {
+      const auto part = [&, k](std::vector<double>& corner, const std::vector<double>& all,
+                               const std::vector<double>& joined, double least, double most_there) {
+        corner[k] = std::clamp(2 * all[k] - joined[k], least, most_there);
+      };
+      part(corners.values, wanted.values, cut.values, 0, most_opening);
+      part(corners.leans, wanted.leans, cut.leans, -2 * most_lean, 2 * most_lean);
+      part(corners.shifts, wanted.shifts, cut.shifts, -2 * most_shift, 2 * most_shift);
+    }
+  }
+
   /// Next to a crossing lips lean as its corners do.
-  static void lean_by_corners(const Crossing& crossing, const CornerLean& corners, Amplitude& cut) {
-    for (std::size_t k = 0; k < cut.stations.size(); ++k) {
-      const double from = cut.stations[k] - crossing.s;
-      cut.leans[k] = std::clamp(leaning_as(corners, from, cut.leans[k]), -most_lean, most_lean) *
-                     std::lerp(1., std::min(1., std::abs(from) / crossing.fades), corners.share);
+  static void lean_by_corners(const Crossing& crossing, const CornerLean& corners,
+                              const std::vector<double>& stations, std::vector<double>& leans) {
+    for (std::size_t k = 0; k < stations.size(); ++k) {
+      const double from = stations[k] - crossing.s;
+      const double beyond = std::abs(from) - corner_part * crossing.fades;
+      leans[k] = std::clamp(leaning_as(corners, std::copysign(std::max(least_step, beyond), from), leans[k]),
+                            -most_lean, most_lean) *
+                 std::lerp(1., std::min(1., std::abs(from) / crossing.fades), corners.share);
     }
   }
 
@@ -441,7 +384,7 @@ class AtStations {
   const std::vector<const Wound*>& cuts_;
   std::vector<Crossing> crossings_;
   std::vector<Amplitude> alone_;  // stations, with 1 at all of them
-  std::vector<Place> places_;
+  ShearLean by_shear_;
   std::vector<Parted> parted_;
   std::vector<Mouth> mouths_;
   std::vector<std::pair<std::size_t, std::size_t>> between_;  // a cut, and a station of it without lips

@@ -9,10 +9,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "explorer/wound/beside_cut.h"
 #include "explorer/wound/wound.h"
 
 namespace cleft {
@@ -23,41 +25,33 @@ namespace cleft {
 struct Amplitude {
   std::vector<double> stations, values;
   std::vector<double> leans = {}, shifts = {};  ///< none: 0
+  /// Those of the lip into which other cuts open, next to there, where the other lip stays whole; at most
+  /// one, none where no other does.
+  std::vector<Amplitude> of_corners = {};
+  std::vector<double> free = {};  ///< 0 to 1: how far the corners beside each of these cuts have parted
   struct At {
     double value, lean, shift;
+    /// What lips that lean, and shift along the cut, add for each mm of displacement across.
+    Vec3 added(const BesideCut& at) const { return lean * at.outward + shift * at.along; }
+    At toward(const At& other, double part) const {
+      return {std::lerp(value, other.value, part), std::lerp(lean, other.lean, part),
+              std::lerp(shift, other.shift, part)};
+    }
   };
   At operator()(double s) const;
+  At operator()(const BesideCut& at) const {
+    const At there = (*this)(at.s);
+    const double part = at.mouth < free.size() ? at.corner * free[at.mouth] : 0;
+    return part == 0 || of_corners.empty() ? there : there.toward(of_corners.front()(at.corner_s), part);
+  }
   double at(double s) const { return (*this)(s).value; }
 };
 
 /// Of the displacement across: lips shift along the cut by no more, and lean by no more.
 constexpr double most_shift = 1, most_lean = 1;
-
-/// Where a cut is crossed by another one.
-struct Crossing {
-  std::size_t cut, other;
-  double s;        ///< mm along the cut
-  double other_s;  ///< and along the other one
-  double fades;    ///< mm: over which the lips of this cut change the side to which they lean
-  double toward;   ///< 1: with s the cut goes to v > 0 of the other one, or -1
-};
-std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts);
-
-/// A vertex beside a cut, as its relief needs it.
-struct BesideCut {
-  double s = 0;         ///< mm along the path
-  Vec3 across;          ///< in the mesh's space, shorter the further from the lips
-  Vec3 along, outward;  ///< unit
-
-  BesideCut() = default;
-  BesideCut(const ActiveVertex& vertex, const Wound& wound);
-  /// Next to where the cut is crossed by others it counts as on that part of the cut which its piece of skin
-  /// is beside: corners of a crossing are at one place of each cut.
-  void keep_with_own_piece(const ActiveVertex& vertex, std::size_t cut, const std::vector<const Wound*>& cuts,
-                           std::span<const Crossing> crossings);
-  /// What lips that lean, and shift along the cut, add for each mm of displacement across.
-  Vec3 added(const Amplitude::At& there) const { return there.lean * outward + there.shift * along; }
-};
+/// How far a cut is taken to open at most, over what it would alone, where others add to the tension. Beyond,
+/// cuts nearly meet end to end.
+constexpr double most_opening = 3;
 
 /// The amplitudes of several cuts while the blade makes the newest of them, at steps of its path, linear
 /// between these. A single step holds for all positions of the blade; without steps, and for unknown cuts,
@@ -95,14 +89,9 @@ class Relief {
     /// A displacement by one cut alone, as the others leave it.
     Vec3 relieved(std::size_t cut, const BesideCut& at, const Vec3& alone) const {
       if (cut >= cuts_) return alone;
-      Amplitude::At there = before_[cut](at.s);
-      if (before_ != after_) {
-        const Amplitude::At after = after_[cut](at.s);
-        there.value += beyond_ * (after.value - there.value),
-            there.lean += beyond_ * (after.lean - there.lean),
-            there.shift += beyond_ * (after.shift - there.shift);
-      }
-      return there.value * alone + dot(alone, at.across) * at.added(there);
+      const Amplitude::At there =
+          before_ == after_ ? before_[cut](at) : before_[cut](at).toward(after_[cut](at), beyond_);
+      return there.value * alone + dot(alone, at.across) * there.added(at);
     }
 
    private:

@@ -39,7 +39,7 @@ constexpr double of_nearest = 0.08;                          // of one that is n
 /// along and across; up to a third as hard along as across none, from 13/9 on 5/3 of it.
 constexpr double of_junction = 0.6, of_junction_turned = 0.3, pulled_enough = 1. / 3, most_pulled = 5. / 3;
 /// Likewise of a cut that it opens into.
-constexpr double of_mouth = 0.08;
+constexpr double of_mouth = 0.05;
 constexpr double of_winding = 0.6;    // mm: times the curvature's difference from that which opens it
 constexpr double of_direction = 0.1;  // a radian: between the path and the direction that opens it
 constexpr double of_loop = 3.3;       // of these two, where the path ends so near to its start, in depths:

@@ -21,7 +21,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
   for (std::size_t k = 0; k < size(); ++k) {
     std::vector<BesideCut>& beside = whole_.beside.emplace_back();
     for (const ActiveVertex& a : active(k))
-      beside.emplace_back(a, (*this)[k]).keep_with_own_piece(a, k, all, crossings());
+      beside.emplace_back(a, (*this)[k]).keep_with_own_piece(a, a.vertex, k, all, crossings());
   }
   std::vector<Vec3> moved(size() > 1 ? vertex_count() : 0);
   for (std::size_t k = 0; k + 1 < size(); ++k) {
@@ -75,17 +75,29 @@ void ReplayedWounds::bound_vertices() {
     for (std::size_t later = std::max<std::size_t>(k, 1); later < size(); ++later)
       for (std::size_t step = 0; step < relief(later).steps(); ++step)
         for (std::size_t i = 0; i < stations; ++i) {
-          const Amplitude::At there = relief(later).amplitude(step, k)(largest.stations[i]);
-          largest.values[i] = std::max(largest.values[i], there.value);
-          largest.leans[i] = std::max(largest.leans[i], std::abs(there.lean));
-          largest.shifts[i] = std::max(largest.shifts[i], std::abs(there.shift));
+          const auto enlarge = [&, i](const Amplitude& amplitude) {
+            const Amplitude::At there = amplitude(largest.stations[i]);
+            largest.values[i] = std::max(largest.values[i], there.value);
+            largest.leans[i] = std::max(largest.leans[i], std::abs(there.lean));
+            largest.shifts[i] = std::max(largest.shifts[i], std::abs(there.shift));
+          };
+          enlarge(relief(later).amplitude(step, k));
+          for (const Amplitude& corners : relief(later).amplitude(step, k).of_corners) enlarge(corners);
         }
     const Replay& replay = whole_.replays[k];
     for (std::size_t i = 0; i < replay.active().size(); ++i) {
       const BesideCut& at = whole_.beside[k][i];
-      const Amplitude::At there = largest.stations.empty() ? Amplitude::At{1, 0, 0} : largest(at.s);
+      Amplitude::At there{1, 0, 0};
+      if (!largest.stations.empty()) {
+        there = largest(at.s);
+        if (at.corner > 0) {
+          const Amplitude::At corner = largest(at.corner_s);
+          there = {std::max(there.value, corner.value), std::max(there.lean, corner.lean),
+                   std::max(there.shift, corner.shift)};
+        }
+      }
       // The norm of A I + l a^T, of perpendicular vectors whose lengths have the product 2 half.
-      const double half = norm(at.across) * norm(at.added(there)) / 2;
+      const double half = norm(at.across) * norm(there.added(at)) / 2;
       bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, there.value));
     }
   }

@@ -36,9 +36,10 @@ double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
   return relief_at(blade).amplitude(cut, s);
 }
 
-Vec3 Wounds::relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const {
+Vec3 Wounds::relieved(std::size_t cut, const ActiveVertex& at, int nearest, const Vec3& alone,
+                      const Blade& blade) const {
   BesideCut beside(at, wounds_[cut]);
-  if (at.vertex >= 0) beside.keep_with_own_piece(at, cut, first(size()), crossings_);
+  beside.keep_with_own_piece(at, nearest, cut, first(size()), crossings_);
   return relief_at(blade).relieved(cut, beside, alone);
 }
 
@@ -61,7 +62,8 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
     if (!at) continue;
     const double own_time = at->time_at(s, wound.field.shape().cut().length);
     sum += 1 / wound.scale() *
-           relieved(k, *at, at->in_mesh(wound.field.displacement(at->uvw, at->side, own_time, at->s)), blade);
+           relieved(k, *at, nearest,
+                    at->in_mesh(wound.field.displacement(at->uvw, at->side, own_time, at->s)), blade);
   }
   return sum;
 }
@@ -76,9 +78,9 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
       if (!at) continue;
       const double s = k == blade.cut ? blade.s : wound.complete(),
                    t = at->time_at(s, wound.field.shape().cut().length);
-      sum +=
-          1 / wound.scale() *
-          relieved(k, *at, at->in_mesh(wound.field.displacement(at->uvw, at->side_at(s), t, at->s)), blade);
+      sum += 1 / wound.scale() *
+             relieved(k, *at, v, at->in_mesh(wound.field.displacement(at->uvw, at->side_at(s), t, at->s)),
+                      blade);
     }
     return sum;
   };

@@ -87,8 +87,9 @@ class Wounds {
  private:
   class GuardLooks;
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
-  /// A displacement by one cut alone, mm, as the others leave it.
-  Vec3 relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const;
+  /// A displacement by one cut alone, mm, as the others leave it. `nearest` is a vertex of the same skin.
+  Vec3 relieved(std::size_t cut, const ActiveVertex& at, int nearest, const Vec3& alone,
+                const Blade& blade) const;
   double part_made(const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest) const;
   bool turned_by_field(int triangle, const Blade& blade) const;

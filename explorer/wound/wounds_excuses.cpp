@@ -64,7 +64,8 @@ bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
     rest[i] = {at->s, at->uvw.y, 0};
     ActiveVertex flat = *at;
     flat.along = {1, 0, 0}, flat.across = {0, 1, 0}, flat.outward = {0, 0, 1};
-    moved[i] = relieved(blade.cut, flat, wound.field.displacement(at->uvw, side, t, at->s), blade);
+    moved[i] =
+        relieved(blade.cut, flat, corners[i], wound.field.displacement(at->uvw, side, t, at->s), blade);
     part = std::min(part, at->weight);
   }
   std::array<Vec3, 3> now = rest;

@@ -44,7 +44,7 @@ class Crossed {
     const std::vector<const Wound*> cuts = {wounds_[0].get(), wounds_[1].get()};
     const std::vector<Crossing> crossings = crossings_of(cuts);
     EXPECT_EQ(crossings.size(), 2u);
-    return lean_at_crossing(crossings.front(), cuts, blade, {amplitude(first), amplitude(second)});
+    return lean_at(crossings.front(), cuts, blade, {amplitude(first), amplitude(second)});
   }
   /// mm: how much higher the lip at v > 0 is than the other one, behind the crossing (1) or before it (-1),
   /// of complete cuts.
@@ -113,13 +113,17 @@ TEST(CornerLean, WhereACutLeavesAnotherIsThatOfSimulatedBranches) {
       return field.displacement({u, 0, 0}, Side::right, t).y - field.displacement({u, 0, 0}, Side::left, t).y;
     };
     const double across = alone(of_main, half);
-    // Pulled alike, of cuts of 30 and 15 mm: 3.25 and 2.5 mm across at a right angle.
+    // Pulled alike, of cuts of 30 and 15 mm, in elements of 0.5 mm.
+    const double branch_alone = alone(of_branch, of_branch.volume.opens_on(false));
     const std::vector<Amplitude> in_membrane = {
         {{0}, {(angle == 90 ? 3.25 : 3.2) / across}},
-        {{0}, {(angle == 90 ? 2.5 : 2.45) / alone(of_branch, of_branch.volume.opens_on(false))}}};
-    const CornerLean found = lean_at_mouth(0, half, 1, false, cuts, branch.path().length(), in_membrane);
-    EXPECT_NEAR(found.before * across, angle == 90 ? 0.38 : 0.35, 0.12) << angle;
-    EXPECT_NEAR(found.after * across, angle == 90 ? 0.36 : 0.14, 0.12) << angle;
+        {{0}, {(angle == 90 ? 2.5 : 2.41) / branch_alone}, {0}, {(angle == 90 ? 0 : -0.46) / branch_alone}}};
+    const std::vector<Crossing> mouths = crossings_of(cuts);
+    ASSERT_EQ(mouths.size(), 1u);
+    EXPECT_NEAR(mouths[0].s, half, 0.1);
+    const CornerLean found = lean_at(mouths[0], cuts, branch.path().length(), in_membrane);
+    EXPECT_NEAR(found.before * across, angle == 90 ? 0.45 : 0.37, 0.1) << angle;
+    EXPECT_NEAR(found.after * across, angle == 90 ? 0.43 : 0.5, 0.1) << angle;
   }
 }
 
@@ -133,10 +137,11 @@ TEST(CornerLean, IsNoneAtARightAngleAndNoneBeforeTheCornersAreFree) {
   EXPECT_EQ(share(half + 3), 1);  // it is a depth behind
 }
 
-TEST(CornerLean, FallsByEOverTwoThirdsOfTheDepth) {
-  const CornerLean one{0.1, -0.1, 1, 2};
+TEST(CornerLean, FallsByEOverItsReachToEitherSide) {
+  const CornerLean one{0.1, -0.1, 1, 1, 2};
   EXPECT_EQ(one.at(0), 1);
   EXPECT_NEAR(one.at(2), std::exp(-1.), 1e-12);
+  EXPECT_NEAR(one.at(-1), std::exp(-1.), 1e-12);
 }
 
 }  // namespace

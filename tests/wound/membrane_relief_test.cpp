@@ -15,6 +15,7 @@
 #include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/fields.h"
+#include "tests/wound/opened_cuts.h"
 
 namespace cleft {
 namespace {
@@ -56,28 +57,9 @@ class Cuts {
   std::vector<std::unique_ptr<Wound>> wounds_;
 };
 
-/// The same in skin that is refined along them, to be replayed.
-struct Made {
-  CutMesh mesh{grid(60, 40, -60.3, -40.1, 2)};
-  std::vector<std::unique_ptr<Incision>> cuts;
-
-  std::vector<Wound> open(const VaryingField& field, const std::vector<std::vector<Vec3>>& paths) {
-    for (const auto& path : paths) {
-      cuts.push_back(std::make_unique<Incision>(mesh, path_through(path, up, 3), IncisionOptions{}));
-      cuts.back()->advance_to(cuts.back()->path().length());
-    }
-    std::vector<Wound> opened;
-    opened.reserve(cuts.size());
-    for (const auto& cut : cuts) opened.emplace_back(*cut, field, 1);
-    return opened;
-  }
-};
-
 std::vector<std::vector<Amplitude>> relief_of(const Cuts& cuts, const std::vector<double>& blades) {
   return membrane_relief(cuts.all(), blades);
 }
-
-std::vector<Vec3> line(double x0, double y0, double x1, double y1) { return {{x0, y0, 0}, {x1, y1, 0}}; }
 
 /// The opening of one of two collinear cracks over that of it alone, at x between a and b.
 double collinear_ratio(double a, double b, double x) {
@@ -279,7 +261,7 @@ TEST(MembraneRelief, CornersOfACrossingLeanAsTheirAnglesTell) {
   const double end = made.cuts[1]->path().length();
   const auto crossing = crossings_of(both).back();
   ASSERT_EQ(crossing.cut, 1u);
-  const double lean = lean_at_crossing(crossing, both, end, membrane_relief(both, {end}).front()).before,
+  const double lean = lean_at(crossing, both, end, membrane_relief(both, {end}).front()).before,
                alone = field.displacement({0, 0, 0}, Side::right, length).y -
                        field.displacement({0, 0, 0}, Side::left, length).y;
   ASSERT_GT(std::abs(lean * alone), 0.05);
