@@ -37,8 +37,6 @@ constexpr double touching = 0.25, shortest = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
 /// where it opens little alone, the field cannot open it otherwise.
 constexpr double most_of_touching = 1.1;
-/// Of a stretch: so near to where another cut opens into it, it opens as in the stretch's middle.
-constexpr double next_to_mouth = 0.01;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
 
@@ -328,11 +326,12 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
   // Ahead of the blade as at its tip. The skin between two cuts that open into it moves along it as a whole.
   result.values.resize(cut.stretches(), result.values.empty() ? ahead : result.values.back());
   result.shifts.resize(cut.stretches(), result.shifts.empty() ? 0 : result.shifts.back());
+  // Up to where another cut opens into it, it opens as in the middle of the stretch next to there.
   for (const double mouth : cut.mouths) {
     const auto next = std::ranges::upper_bound(result.stations, mouth);
     if (next == result.stations.begin() || next == result.stations.end()) continue;
     const auto at = next - result.stations.begin();
-    const double to_both = next_to_mouth * (next[0] - next[-1]);
+    const double to_both = Crossing::corners_apart / 2;
     result.stations.insert(next, {mouth - to_both, mouth + to_both});
     for (std::vector<double>* list : {&result.values, &result.shifts})
       list->insert(list->begin() + at, {(*list)[at - 1], (*list)[at]});

@@ -126,7 +126,7 @@ class AtStations {
       result[i].leans = total(leans[i], result[i].leans.size());
       for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
         const Amplitude& other = by_branches[i];
-        const Amplitude::At there = in_membrane[i](result[i].stations[next_to(i, k)]);
+        const Amplitude::At there = in_membrane[i](result[i].stations[k]);
         result[i].leans[k] = std::clamp(result[i].leans[k] - other.leans[k], -most_lean, most_lean);
         result[i].values[k] = std::min(most_opening, std::max(0., there.value - other.values[k]));
         result[i].shifts[k] = std::clamp(there.shift - other.shifts[k], -most_shift, most_shift);
@@ -203,11 +203,34 @@ class AtStations {
       std::erase_if(result, [&](const Station& station) {
         return !station.second && std::abs(station.first - mouth.s) < at_corners * mouth.fades;
       });
-      const Station corners[] = {{mouth.before(), std::nullopt}, {mouth.behind(), std::nullopt}};
+      const Station corners[] = {{mouth.before(), lips_at(mouth, -1)}, {mouth.behind(), lips_at(mouth, 1)}};
       result.insert(std::ranges::upper_bound(result, mouth.s, {}, &Station::first), std::begin(corners),
                     std::end(corners));
     }
     return result;
+  }
+
+  /// At the corner before (-1) or behind (1) one that opens into a cut: the end of its lip, and the lip
+  /// across.
+  std::optional<Lips> lips_at(const Crossing& mouth, double side) const {
+    const auto &across = cuts_[mouth.cut]->incision->chain(), &lips = cuts_[mouth.other]->incision->chain();
+    const auto nearest = std::ranges::min_element(across, {}, [&](const Incision::ChainVertex& c) {
+      return std::abs(c.s * cuts_[mouth.cut]->scale() - mouth.s);
+    });
+    // It may have been led on to the other side of the cut.
+    const auto is_beside = [&](int vertex) {
+      const std::optional<ActiveVertex> at = cuts_[mouth.cut]->volume.locate(vertex);
+      return at && at->side == (mouth.branch > 0 ? Side::right : Side::left);
+    };
+    const auto is_end = [&](const Incision::ChainVertex& c) {
+      return c.left != c.right && is_beside(c.left) && is_beside(c.right);
+    };
+    const auto first = std::ranges::find_if(lips, is_end);
+    if (nearest == across.end() || first == lips.end()) return std::nullopt;
+    const Incision::ChainVertex& end =
+        mouth.at_end ? *std::find_if(lips.rbegin(), lips.rend(), is_end) : *first;
+    const int corner = side * mouth.toward > 0 ? end.right : end.left;
+    return mouth.branch > 0 ? Lips{nearest->left, corner} : Lips{corner, nearest->right};
   }
 
   /// The first station behind one without lips that has some.
@@ -217,8 +240,7 @@ class AtStations {
     return station;
   }
 
-  /// The station itself; of a corner beside a mouth that of the lip next to it, from where what the membrane
-  /// tells leads to the other corner.
+  /// The station itself; of a corner beside a mouth that of the lip next to it.
   std::size_t next_to(std::size_t cut, std::size_t station) const {
     for (const Mouth& mouth : mouths_)
       if (mouth.at.cut == cut && (station == mouth.behind || station + 1 == mouth.behind))
