@@ -99,10 +99,11 @@ void BesideCut::keep_with_own_piece(const ActiveVertex& vertex, int nearest, std
       // Both cuts part the corners: half of how far these are apart is due to each. Along a lip the part of
       // the other cut falls as that of its own grows.
       s += (1 - away) * corner_part * behind * crossing.fades;
-    } else if (const double part = 1 - away * away; part > corner) {
-      corner = part, mouth = number;
-      corner_s = behind < 0 ? std::min(s, crossing.before()) : std::max(s, crossing.behind());
+      continue;
     }
+    corner_s = corner == 0 ? s : corner_s;
+    corner_s = behind < 0 ? std::min(corner_s, crossing.before()) : std::max(corner_s, crossing.behind());
+    if (const double part = 1 - away * away; part > corner) corner = part, mouth = number;
   }
 }
 

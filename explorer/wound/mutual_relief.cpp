@@ -342,8 +342,12 @@ class AtStations {
 
   /// How far the corners beside one that opens into it are free, with the blade of the last cut there: 0
   /// until all skin that moves with them is cut, then up to 1. One that ends there has opened half-way on
-  /// then.
+  /// then. Where another one opens into the lip across nothing tells which of the two parts what.
   double free_corners(const Crossing& mouth, double blade) const {
+    for (const Crossing& other : crossings_)
+      if (other.cut == mouth.cut && other.branch == -mouth.branch &&
+          std::abs(other.s - mouth.s) < beside_mouth(other) + beside_mouth(mouth))
+        return 0;
     const Wound& later = *cuts_[mouth.other];
     if (mouth.other + 1 < cuts_.size()) blade = later.complete();
     if (!mouth.at_end) return std::clamp((blade - mouth.way) / (parted_over * mouth.way), 0., 1.);
