@@ -136,6 +136,21 @@ TEST(Branch, ItsCornersPartWhenTheBladeIsFarFromThem) {
   EXPECT_NEAR(free(1.5 * mouth.way), 1, 1e-6);
 }
 
+/// Nothing tells which of two that open into a cut from both sides parts what of its lips.
+TEST(Branch, ThatFacesAnotherOneLeavesBothLipsWhole) {
+  const Field field = in_tension(opening_field(canonical, 60, 60, 6, 3),
+                                 {{"skin.prestress_u", 0.03}, {"skin.prestress_v", 0.03}});
+  for (const double apart : {0.6, 8.}) {
+    Made made;
+    const ReplayedWounds wounds(made.open(
+        field, {line(-15, 0.1, 15, 0.1), line(-5, 0, -5, 16), line(apart - 5, 0.2, apart - 5, -16)}));
+    const std::vector<double> free =
+        mutual_relief({&wounds[0], &wounds[1], &wounds[2]}, {16}).front()[0].free;
+    ASSERT_EQ(free.size(), 2u);
+    for (const double one : free) EXPECT_NEAR(one, apart < 3 ? 0 : 1, 1e-9) << apart;
+  }
+}
+
 /// Where a cut opens by nothing, what a branch moves its lips by is over nothing.
 TEST(Branch, MovesTheEndsOfItsCutAsTheSkinBesideThem) {
   const Branched cuts(50);
