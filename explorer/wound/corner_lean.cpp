@@ -103,10 +103,8 @@ CornerLean lean_at(const Crossing& crossing, const std::vector<const Wound*>& cu
   };
   result.before = (height(-1, 1) - height(-1, -1)) / own.across_alone;
   result.after = (height(1, 1) - height(1, -1)) / own.across_alone;
-  if (!crosses) {
-    result.reach_before += rises.further_with_cosine * cosine_of(-1, crossing.branch) * depth;
-    result.reach_after += rises.further_with_cosine * cosine_of(1, crossing.branch) * depth;
-  }
+  result.reach_before += rises.further_with_cosine * cosine_of(-1, crossing.branch) * depth;
+  result.reach_after += rises.further_with_cosine * cosine_of(1, crossing.branch) * depth;
   return result;
 }
 

@@ -49,7 +49,7 @@ class LiveReplay {
 
   /// The place of a vertex that has entered.
   const BesideCut& beside(int vertex) const { return beside_[static_cast<std::size_t>(vertex) + 1]; }
-  /// Where complete cuts cross, of which this one is number `cut`: vertices next to it keep with their own
+  /// Where complete cuts meet, of which this one is number `cut`: vertices next to it keep with their own
   /// piece of skin (BesideCut), those that enter later too. The cuts must outlive it.
   void cross(std::size_t cut, std::vector<const Wound*> cuts, std::vector<Crossing> crossings);
   /// All vertices that have entered and still exist.
@@ -111,7 +111,7 @@ class LiveReplay {
   std::vector<Vec3> rest_, position_;  // number 0 is unused: it receives the results of vertices that left
   std::vector<Slot> slots_;
   std::vector<BesideCut> beside_;
-  std::size_t number_ = 0;  // among the cuts that cross
+  std::size_t number_ = 0;  // among the cuts that meet
   std::vector<const Wound*> cuts_;
   std::vector<Crossing> crossings_;
   std::vector<Placed> placed_;  // of a path that is extended

@@ -1,6 +1,7 @@
 #include "explorer/wound/mutual_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -85,7 +86,7 @@ class AtStations {
         }
         by_shear_.add({i, station, s, opening, lips->first, lips->second});
         for (std::size_t j = 0; j < cuts.size(); ++j) {
-          if (j == i || !opens_into(*cuts[j], cut) || !(opening > 0)) continue;
+          if (j == i || !cuts[j]->mouth_in(cut) || !(opening > 0)) continue;
           const std::optional<ActiveVertex> left = cuts[j]->volume.locate(lips->first),
                                             right = cuts[j]->volume.locate(lips->second);
           if (left && right) parted_.push_back({i, j, station, left->s, opening, *left, *right});
@@ -149,6 +150,10 @@ class AtStations {
   }
 
  private:
+  static std::array<std::vector<double>*, 3> lists_of(Amplitude& cut) {
+    return {&cut.values, &cut.shifts, &cut.leans};
+  }
+
   /// Lips of a cut in the volume of another one that opens into it, and moves them differently.
   struct Parted {
     std::size_t cut, by, station;
@@ -285,7 +290,7 @@ class AtStations {
     const auto first = static_cast<std::size_t>(std::ranges::lower_bound(s, s.front() + beside) - s.begin()),
                last = static_cast<std::size_t>(std::ranges::upper_bound(s, s.back() - beside) - s.begin());
     if (first >= last) return;
-    for (std::vector<double>* list : {&moved.values, &moved.shifts, &moved.leans}) {
+    for (std::vector<double>* list : lists_of(moved)) {
       if (!wound.volume.mouth(false)) std::fill_n(list->begin(), first, (*list)[first]);
       if (!wound.volume.mouth(true))
         std::fill(list->begin() + static_cast<std::ptrdiff_t>(last), list->end(), (*list)[last - 1]);
@@ -310,9 +315,7 @@ class AtStations {
       const auto fill = [&, k = station](std::vector<double>& list) {
         list[k] = lip != k ? list[lip] : std::lerp(list[k - 1], list[next], part);
       };
-      for (std::vector<double>* list :
-           {&by_branches[cut].values, &by_branches[cut].shifts, &by_branches[cut].leans})
-        fill(*list);
+      for (std::vector<double>* list : lists_of(by_branches[cut])) fill(*list);
       for (std::vector<double>& by_other : leans[cut])
         if (!by_other.empty()) fill(by_other);
     }
@@ -335,7 +338,7 @@ class AtStations {
     for (std::size_t k = first + 1; k < last; ++k) {
       const double part =
           (cut.stations[k] - cut.stations[first]) / (cut.stations[last] - cut.stations[first]);
-      for (std::vector<double>* list : {&cut.values, &cut.shifts, &cut.leans})
+      for (std::vector<double>* list : lists_of(cut))
         (*list)[k] = std::lerp((*list)[first], (*list)[last], part);
     }
   }

@@ -81,17 +81,7 @@ double more_beside(const Wound& other, const ActiveVertex& at) {
          more * std::clamp((leans_as_others_from - depths) / (leans_as_others_from - leans_more_to), 0., 1.);
 }
 
-/// Null unless the later cut begins or ends in the other one.
-const IncisionVolume::Mouth* mouth_between(const Wound& later, const Wound& cut) {
-  for (const bool at_end : {false, true})
-    if (const auto& mouth = later.volume.mouth(at_end); mouth && mouth->earlier == cut.incision)
-      return &*mouth;
-  return nullptr;
-}
-
 }  // namespace
-
-bool opens_into(const Wound& later, const Wound& cut) { return mouth_between(later, cut) != nullptr; }
 
 ShearLean::ShearLean(const std::vector<const Wound*>& cuts) : cuts_(cuts), stations_(cuts.size(), 0) {}
 
@@ -107,12 +97,12 @@ void ShearLean::add(const Lips& lips) {
       const std::optional<ActiveVertex> at = other.volume.locate(lip);
       if (!at || part == 0) return;
       const bool complete = j + 1 < cuts_.size();
-      const IncisionVolume::Mouth* branch = mouth_between(cut, other);
+      const IncisionVolume::Mouth* branch = cut.mouth_in(other);
       places_.push_back({lips.cut, j, lips.station, at->s, part * leans * more_beside(other, *at),
                          complete ? shear_across(other, *at, normal, other.complete(), branch) : 0, *at,
                          normal, branch});
     };
-    if (const IncisionVolume::Mouth* mouth = mouth_between(other, cut)) {
+    if (const IncisionVolume::Mouth* mouth = other.mouth_in(cut)) {
       const double beside = beside_branch(cut, lips.s, other);
       add(mouth->right ? lips.right : lips.left, beside);
       add(mouth->right ? lips.left : lips.right, 1 - beside);

@@ -8,9 +8,6 @@
 
 namespace cleft {
 
-/// Whether a later cut begins or ends in another one.
-bool opens_into(const Wound& later, const Wound& cut);
-
 class ShearLean {
  public:
   /// They must outlive it.

@@ -72,6 +72,14 @@ struct Wound {
            std::abs(inside.v - end.v) > least_sine * way;
   }
 
+  /// Where this one opens into an earlier one, with its start or its end; null: it does not.
+  const IncisionVolume::Mouth* mouth_in(const Wound& earlier) const {
+    for (const bool at_end : {false, true})
+      if (const auto& mouth = volume.mouth(at_end); mouth && mouth->earlier == earlier.incision)
+        return &*mouth;
+    return nullptr;
+  }
+
   /// Where a later cut opens into this one, mm along the path, with its start or its end; none: it does not.
   std::optional<double> mouth_of(const Wound& later, bool at_end) const {
     const auto& mouth = later.volume.mouth(at_end);

@@ -62,7 +62,7 @@ class Wounds {
   /// The amplitudes at a position of the blade; valid until a wound is added or a relief is set.
   Relief::At relief_at(const Blade& blade) const;
 
-  /// Where complete cuts cross; none while a cut is made.
+  /// Where complete cuts meet; none while a cut is made.
   void set_crossings(std::vector<Crossing> crossings) { crossings_ = std::move(crossings); }
   const std::vector<Crossing>& crossings() const { return crossings_; }
 

@@ -19,7 +19,12 @@ using namespace testing;
 
 const CanonicalCut canonical{-15, 30, 3};
 
-/// A cut along x, and one that leaves it, in evenly pulled skin.
+Field evenly_pulled() {
+  return in_tension(opening_field(canonical, 60, 60, 6, 3),
+                    {{"skin.prestress_u", 0.03}, {"skin.prestress_v", 0.03}});
+}
+
+/// A cut along x, and one that leaves it.
 class Branched {
  public:
   explicit Branched(double degrees)
@@ -51,8 +56,7 @@ class Branched {
   }
 
  private:
-  Field field_ = in_tension(opening_field(canonical, 60, 60, 6, 3),
-                            {{"skin.prestress_u", 0.03}, {"skin.prestress_v", 0.03}});
+  Field field_ = evenly_pulled();
   Vec3 along_;
   Made made_;
   ReplayedWounds wounds_;
@@ -138,8 +142,7 @@ TEST(Branch, ItsCornersPartWhenTheBladeIsFarFromThem) {
 
 /// Nothing tells which of two that open into a cut from both sides parts what of its lips.
 TEST(Branch, ThatFacesAnotherOneLeavesBothLipsWhole) {
-  const Field field = in_tension(opening_field(canonical, 60, 60, 6, 3),
-                                 {{"skin.prestress_u", 0.03}, {"skin.prestress_v", 0.03}});
+  const Field field = evenly_pulled();
   for (const double apart : {0.6, 8.}) {
     Made made;
     const ReplayedWounds wounds(made.open(
