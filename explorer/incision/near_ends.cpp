@@ -9,7 +9,7 @@ namespace {
 
 constexpr double least_approach = 0.2;  // of the way that an end goes: flatter, it runs beside the other path
 constexpr double beyond = 0.2;          // of `near`: how far an end is moved over the other path
-constexpr double rounding = 1e-3;       // of `near`: an end that is no farther from the other path is on it
+constexpr double rounding = 1e-3;       // of `near`: gaps that differ by no more are the same; 0: it is on it
 
 /// Of an end just before the other path: how far from it, and how much farther it has to go to be just
 /// beyond.
@@ -22,7 +22,8 @@ std::optional<Approach> approach_of(const ScalpelPath& path, bool start, const S
   const PathCoordinates end = other.coordinates(path.at(s).position),
                         before = other.coordinates(path.at(start ? back : s - back).position);
   const double gap = std::abs(end.v) < rounding * near ? 0 : std::abs(end.v);
-  if (end.s < 0 || end.s > other.length() || gap > near || std::abs(end.w) > near) return std::nullopt;
+  if (end.s < 0 || end.s > other.length() || gap > (1 + rounding) * near || std::abs(end.w) > near)
+    return std::nullopt;
   const double approach = (before.v * ((gap > 0 ? end.v : before.v) < 0 ? -1 : 1) - gap) / back;
   // A start on the other path is on its lip; an end would come as near to it as rounding has it.
   if (approach < least_approach || (start && gap == 0)) return std::nullopt;

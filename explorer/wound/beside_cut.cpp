@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "explorer/wound/membrane_relief.h"
+#include "explorer/wound/touched_at.h"
 
 namespace cleft {
 

@@ -78,6 +78,18 @@ std::array<Tensor, 2> dislocation_stress(const Vector& at, double factor) {
   return stress;
 }
 
+/// Its integral along the first axis of the place.
+std::array<Tensor, 2> integrated_stress(const Vector& at, double factor) {
+  const double x = at.x(), y = at.y(), r2 = at.squaredNorm();
+  const double mixed = x * y / r2, squared = y * y / r2, logarithm = std::log(r2) / 2,
+               angle = y == 0 ? 0 : std::atan(x / y);
+  std::array<Tensor, 2> stress;
+  stress[0] << mixed - 2 * angle, logarithm + squared, logarithm + squared, -mixed;
+  stress[1] << logarithm + squared, -mixed, -mixed, logarithm - squared;
+  for (Tensor& one : stress) one *= factor;
+  return stress;
+}
+
 }  // namespace
 
 CutMembrane::CutMembrane(double reach, double poisson_ratio, const Springs& springs) : reach_(reach) {
@@ -126,7 +138,7 @@ CutMembrane::Derivatives CutMembrane::smooth_part(double distance) const {
   return result;
 }
 
-Eigen::Matrix2d CutMembrane::relief(const Vector& begin, const Vector& end) const {
+Eigen::Matrix<double, 2, 4> CutMembrane::linear_relief(const Vector& begin, const Vector& end) const {
   const Vector middle = (begin + end) / 2, along = (end - begin).normalized();
   const double half = (end - begin).norm() / 2, least = near_part * half;
   Tensor frame;  // columns: along and across the opening
@@ -139,10 +151,18 @@ Eigen::Matrix2d CutMembrane::relief(const Vector& begin, const Vector& end) cons
   const double of_dislocation = 2 * shear_ / (std::numbers::pi * (kappa + 1)),
                of_unit_force = 1 / (2 * std::numbers::pi * shear_);
   const Vector across(0, 1), across_there = frame.transpose() * across;
-  const auto at_begin = dislocation_stress(frame.transpose() * not_too_near(-begin), of_dislocation),
-             at_end = dislocation_stress(frame.transpose() * not_too_near(-end), of_dislocation);
-  Tensor taken;
-  for (int a = 0; a < 2; ++a) taken.col(a) = frame * ((at_begin[a] - at_end[a]) * across_there);
+  const Vector from_begin = frame.transpose() * not_too_near(-begin),
+               from_end = frame.transpose() * not_too_near(-end);
+  const auto at_begin = dislocation_stress(from_begin, of_dislocation),
+             at_end = dislocation_stress(from_end, of_dislocation);
+  // A linear opening is one of dislocations all along it, and at its ends.
+  const auto to_begin = integrated_stress(from_begin, of_dislocation / half),
+             to_end = integrated_stress(from_end, of_dislocation / half);
+  Eigen::Matrix<double, 2, 4> taken;
+  for (int a = 0; a < 2; ++a) {
+    taken.col(a) = frame * ((at_begin[a] - at_end[a]) * across_there);
+    taken.col(2 + a) = frame * ((to_begin[a] - to_end[a] - at_begin[a] - at_end[a]) * across_there);
+  }
   const std::span<const GaussPoint> rule =
       middle.norm() < 2 * near_pieces * half ? std::span<const GaussPoint>(four_points) : one_point;
   for (const auto& [part, weight] : rule) {
@@ -170,7 +190,8 @@ Eigen::Matrix2d CutMembrane::relief(const Vector& begin, const Vector& end) cons
             for (int k = 0; k < 2; ++k) gradient(p, q) += moment(b, k) * derivative(p, b, k, q);
       const Tensor stress =
           lame_ * gradient.trace() * Tensor::Identity() + shear_ * (gradient + gradient.transpose());
-      taken.col(a) += weight * half * (polar * (stress * line));
+      const Vector traction = weight * half * (polar * (stress * line));
+      taken.col(a) += traction, taken.col(2 + a) += part * traction;
     }
   }
   return taken;

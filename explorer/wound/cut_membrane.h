@@ -22,7 +22,7 @@ class CutMembrane {
   /// that cross or meet at 20 to 90 degrees, 15 to 50 mm long, are right: the tissue below a cut holds back
   /// what slides along it, and yields where its walls part.
   struct Springs {
-    double dilating = -1, shearing = 0.5;  ///< `more`, at least -1
+    double dilating = -1, shearing = 1.2;  ///< `more`, at least -1
     double length = 0.09;                  ///< l over the reach, at most a fifth
   };
 
@@ -55,7 +55,12 @@ class CutMembrane {
 
   /// What a unit opening between two corners, along and across, takes from the traction on a piece; both in
   /// the piece's frame, in whose middle the corners are seen.
-  Eigen::Matrix2d relief(const Eigen::Vector2d& begin, const Eigen::Vector2d& end) const;
+  Eigen::Matrix2d relief(const Eigen::Vector2d& begin, const Eigen::Vector2d& end) const {
+    return linear_relief(begin, end).leftCols<2>();
+  }
+
+  /// The same, and that of an opening which is linear, from -1 at `begin` to 1 at `end`, along and across.
+  Eigen::Matrix<double, 2, 4> linear_relief(const Eigen::Vector2d& begin, const Eigen::Vector2d& end) const;
 
  private:
   /// What is smooth of the derivatives of the fundamental solution at a distance, in the frame of the

@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "explorer/wound/path_opening.h"
+#include "explorer/wound/touched_at.h"
 
 namespace cleft {
 
 namespace {
 
-/// Stretches of a cut as long as the canonical one, and of a cut, in the middles of which amplitudes are
-/// told. With shorter ones corners of a crossing part so steeply that the guard holds cuts back.
-constexpr int own_stretches = 30, most_stretches = 90, fewest_stretches = 8;
+/// Stretches of a cut (canonical_stretch), in the middles of which amplitudes are told.
+constexpr int most_stretches = 90, fewest_stretches = 8;
 /// A stretch is one piece; of so many next to a joint each is two, and the one at the joint is four, which
 /// end at these parts of it: openings change most there, above all where corners are acute. Half of all these
 /// lengths change openings of cuts that cross or meet at 20 to 90 degrees by at most 0.013.
@@ -31,50 +31,14 @@ constexpr double reach_apart = 0.87;
 constexpr CutMembrane::Springs springs_apart{-0.11, 2.19, 0.1};
 /// Of cuts that touch the length of the springs, in depths: openings of simulated crossings 2, 3 and 5 mm
 /// deep are right with it. Over the reach it is at most a fifth.
-constexpr double springs_in_depths = 0.5, longest_springs = 0.2;
-/// In stretches: cuts that are nearer to each other touch, and stretches end there. And stretches are longer.
-constexpr double touching = 0.25, shortest = 0.3;
+constexpr double springs_in_depths = 0.36, longest_springs = 0.2;
+/// In stretches: they are longer, and end where cuts touch.
+constexpr double shortest = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
 /// where it opens little alone, the field cannot open it otherwise.
 constexpr double most_of_touching = 1.1;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
-
-double canonical_stretch(const Wound& wound) { return wound.field.shape().cut().length / own_stretches; }
-
-}  // namespace
-
-std::vector<double> touched_at(const Wound& cut, const Wound& other) {
-  constexpr int samples_a_stretch = 2, rounds = 20;
-  const ScalpelPath &path = cut.incision->path(), &other_path = other.incision->path();
-  const double length = cut.complete(), other_end = other.complete() / other.scale();
-  const int samples = std::max(2, static_cast<int>(samples_a_stretch * length / canonical_stretch(cut)));
-  const auto distance = [&](double s) {
-    const Vec3 there = cut.scale() / other.scale() * path.at(s / cut.scale()).position;
-    const double other_s = std::clamp(other_path.coordinates(there, 0, other_end).s, 0., other_end);
-    return other.scale() * norm(other_path.at(other_s).position - there);
-  };
-  std::vector<double> found, distances;
-  for (int i = 0; i <= samples; ++i) distances.push_back(distance(length * i / samples));
-  for (int i = 0; i <= samples; ++i) {
-    const bool nearest =
-        (i == 0 || distances[i - 1] >= distances[i]) && (i == samples || distances[i + 1] > distances[i]);
-    // Between samples it is nearer by no more than the way to them.
-    if (!nearest || distances[i] > touching * canonical_stretch(cut) + length / samples) continue;
-    double from = length * std::max(0, i - 1) / samples, to = length * std::min(samples, i + 1) / samples;
-    for (int round = 0; round < rounds; ++round) {
-      const double third = (to - from) / 3;
-      if (distance(from + third) < distance(to - third))
-        to -= third;
-      else
-        from += third;
-    }
-    if (distance((from + to) / 2) < touching * canonical_stretch(cut)) found.push_back((from + to) / 2);
-  }
-  return found;
-}
-
-namespace {
 
 /// Where a cut touches others.
 struct Joint {
@@ -176,6 +140,23 @@ struct Cut {
                                              2 * static_cast<Eigen::Index>(result.size()));
   }
 
+  /// The pieces before and behind one in its stretch, or itself at an end of that; and half its own length
+  /// over the way between their middles.
+  struct Beside {
+    std::size_t before, behind;
+    double part;
+  };
+  Beside beside(std::size_t piece) const {
+    const auto next = std::ranges::upper_bound(first_pieces, static_cast<Eigen::Index>(piece));
+    const auto first = static_cast<std::size_t>(next[-1]), last = static_cast<std::size_t>(*next) - 1;
+    const auto half = [&](std::size_t i) { return norm(pieces[i].end - pieces[i].begin) / 2; };
+    Beside result{std::max(piece, first + 1) - 1, std::min(piece + 1, last), 0};
+    double way = 0;
+    for (std::size_t i = result.before; i < result.behind; ++i) way += half(i) + half(i + 1);
+    if (way > 0) result.part = half(piece) / way;
+    return result;
+  }
+
   /// The same, begun `count` stretches before its start, straight.
   Cut begun_before(int count) const {
     Cut result = *this;
@@ -230,6 +211,9 @@ struct Cut {
 };
 
 /// What openings of one cut take from the tractions on another, whose skin is unrolled around each piece.
+/// Openings are told in the middles of pieces, in which they are as linear as between those of their stretch.
+/// Where they are constant in each piece, corners of 36 to 42 degrees between cuts, whatever the pieces,
+/// swing without limit: how a corner turns is no step from piece to piece.
 Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& from) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(to.rows(), from.rows());
   for (std::size_t i = 0; i < to.pieces.size(); ++i) {
@@ -246,8 +230,14 @@ Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& fro
       if (norm(other.middle - middle) > farthest * membrane.reach() ||
           dot(other.frame.outward, frame.outward) < turned_away)
         continue;
-      result.block<2, 2>(2 * Eigen::Index(i), 2 * Eigen::Index(j)) =
-          membrane.relief(seen(other.begin), seen(other.end));
+      const auto relief = membrane.linear_relief(seen(other.begin), seen(other.end));
+      const auto of = [&](std::size_t piece) {
+        return result.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(piece));
+      };
+      of(j) += relief.leftCols<2>();
+      const Cut::Beside beside = from.beside(j);
+      of(beside.behind) += beside.part * relief.rightCols<2>();
+      of(beside.before) -= beside.part * relief.rightCols<2>();
     }
   }
   return result;
@@ -343,7 +333,7 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
 Vec3 joint_at(const Wound& cut, double s, std::vector<Vec3>& places) {
   const Vec3 there = cut.scale() * cut.incision->path().at(s / cut.scale()).position;
   for (const Vec3& place : places)
-    if (norm(place - there) < touching * canonical_stretch(cut)) return place;
+    if (norm(place - there) < touching_within(cut)) return place;
   return places.emplace_back(there);
 }
 

@@ -10,9 +10,6 @@
 
 namespace cleft {
 
-/// Places of a cut where it touches another one, mm along its path.
-std::vector<double> touched_at(const Wound& cut, const Wound& other);
-
 /// result[i][k]: the opening of cut k over the opening across of the cut alone, along its path, with the
 /// blade of the last cut at blades[i] mm of its path and the others complete: across, and as `shifts` what
 /// the other cuts add along it. 1 for a single cut, and of fields that do not open. Throws InputError if a

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "explorer/wound/corner_lean.h"
 #include "explorer/wound/membrane_relief.h"
 #include "explorer/wound/shear_lean.h"
+#include "explorer/wound/touched_at.h"
 
 namespace cleft {
 
@@ -31,16 +31,16 @@ constexpr double mouth_reach = 0.5;
 constexpr double beside_end = 0.2;
 /// Of how far beside it corners part: lips so near are its corners themselves. Of the blade's way until they
 /// part, that until they are free.
-constexpr double at_corners = 1e-3, parted_over = 0.5;
+constexpr double at_corners = 1e-2, parted_over = 0.5;
 
-/// How far a complete cut alone opens across, mm.
-double opening_at(double s, const Wound& wound) {
+/// How far a complete cut alone opens along, across and upward, mm.
+Vec3 opening_at(double s, const Wound& wound) {
   const double length = wound.complete();
   const auto [u, time_offset] = wound.volume.canonical(s, length);
   const double t =
       std::clamp(wound.volume.opened_to()(length) + time_offset, 0., wound.field.shape().cut().length);
-  return wound.field.displacement({u, 0, 0}, Side::right, t, s).y -
-         wound.field.displacement({u, 0, 0}, Side::left, t, s).y;
+  return wound.field.displacement({u, 0, 0}, Side::right, t, s) -
+         wound.field.displacement({u, 0, 0}, Side::left, t, s);
 }
 
 }  // namespace
@@ -71,15 +71,23 @@ namespace {
 class AtStations {
  public:
   explicit AtStations(const std::vector<const Wound*>& cuts)
-      : cuts_(cuts), crossings_(crossings_of(cuts)), alone_(cuts.size()), by_shear_(cuts) {
+      : cuts_(cuts),
+        crossings_(crossings_of(cuts)),
+        alone_(cuts.size()),
+        without_ends_(cuts.size()),
+        by_shear_(cuts) {
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       const Wound& cut = *cuts[i];
       Amplitude& own = alone_[i];
       for (const auto& [s, lips] : stations_of(i)) {
         if (!own.stations.empty() && s <= own.stations.back()) continue;
         const std::size_t station = own.stations.size();
-        const double opening = opening_at(s, cut);
+        const Vec3 alone = opening_at(s, cut);
+        const double opening = alone.y;
         own.stations.push_back(s);
+        // Where it opens into another one it has no end, beside which lips lean in skin that is sheared.
+        const bool at_end = s > cut.complete() / 2;
+        without_ends_[i].push_back(cut.volume.mouth(at_end) && opening > 0 ? -alone.z / opening : 0);
         if (!lips) {
           between_.emplace_back(i, station);
           continue;
@@ -111,6 +119,9 @@ class AtStations {
   std::vector<Amplitude> with_blade_at(double blade, const std::vector<Amplitude>& in_membrane) const {
     std::vector<Amplitude> result = alone_;
     ShearLean::Leans leans = by_shear_.leans(blade, in_membrane);
+    for (std::size_t i = 0; i < leans.size(); ++i)
+      for (std::size_t k = 0; k < without_ends_[i].size(); ++k)
+        leans[i][i].push_back(in_membrane[i].at(alone_[i].stations[k]) * without_ends_[i][k]);
     for (std::size_t i = 0; i < result.size(); ++i) result[i].leans = total(leans[i], result[i].leans.size());
     std::vector<Amplitude> by_branches = moved_by_branches(blade, in_membrane, result);
     fill_between(leans, by_branches);
@@ -358,11 +369,18 @@ class AtStations {
     return opened_to.runs_on > 0 ? std::max(0., 2 * opened_to.beyond(blade) / opened_to.runs_on - 1) : 0;
   }
 
-  /// What parts the corners in the skin's plane is the cut between them alone.
+  /// What parts the corners in the skin's plane is the cut between them alone: toward the mouth what is to
+  /// either side of it goes to their mean.
   static void keep_opening(const Mouth& mouth, Amplitude& cut) {
+    const std::vector<double>& s = cut.stations;
+    const std::size_t before = mouth.behind - 1, behind = mouth.behind;
     for (std::vector<double>* list : {&cut.values, &cut.shifts}) {
-      double &before = (*list)[mouth.behind - 1], &behind = (*list)[mouth.behind];
-      before = behind = std::midpoint(before, behind);
+      const double half = ((*list)[behind] - (*list)[before]) / 2;
+      const auto shift = [&](std::size_t k, std::size_t corner, std::size_t end, double by) {
+        (*list)[k] += by * (s[k] - s[end]) / (s[corner] - s[end]);
+      };
+      for (std::size_t k = mouth.first + 1; k <= before; ++k) shift(k, before, mouth.first, half);
+      for (std::size_t k = behind; k < mouth.last; ++k) shift(k, behind, mouth.last, -half);
     }
   }
 
@@ -413,7 +431,8 @@ class AtStations {
 
   const std::vector<const Wound*>& cuts_;
   std::vector<Crossing> crossings_;
-  std::vector<Amplitude> alone_;  // stations, with 1 at all of them
+  std::vector<Amplitude> alone_;                   // stations, with 1 at all of them
+  std::vector<std::vector<double>> without_ends_;  // of each cut: what it leans less at its stations
   ShearLean by_shear_;
   std::vector<Parted> parted_;
   std::vector<Mouth> mouths_;

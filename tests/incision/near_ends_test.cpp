@@ -73,6 +73,14 @@ TEST(NearEnds, AreLedOverTheOtherCut) {
   EXPECT_EQ(with_near_ends_joined({branch(0.02), along()}, near).ends.size(), 1U);
 }
 
+TEST(NearEnds, AreLedOnWhereverTheWidestBridgeIs) {
+  for (const double at : {0.31, 1., 6., 10., -17.3}) {
+    const ScalpelPath other = path_through({{-10, at, 0}, {10, at, 0}}, up, 2),
+                      before = path_through({{1, at - 8, 0}, {1, at - near, 0}}, up, 2);
+    EXPECT_EQ(with_near_ends_joined({other, before}, near).ends.size(), 1U) << at;
+  }
+}
+
 TEST(NearEnds, OthersStayAsTheyAre) {
   const auto joined = [](const ScalpelPath& path) {
     return with_near_ends_joined({along(), path}, near).ends.size();

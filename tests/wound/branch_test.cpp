@@ -63,7 +63,7 @@ class Branched {
 };
 
 TEST(Branch, ItsCornersAreApartInHeightAsTheirAnglesTell) {
-  const Branched cuts(35);
+  const Branched cuts(45);
   ASSERT_EQ(crossings_of(cuts.both()).size(), 1u);
   ASSERT_EQ(cuts.mouth().branch, 1);
   const double end = cuts.branch().path().length();
@@ -88,7 +88,7 @@ TEST(Branch, ItsCornersAreApartInHeightAsTheirAnglesTell) {
     const double from = c.s - cuts.mouth().s, told = (from < 0 ? lean.before : lean.after) * alone;
     if (c.right != cuts.corners().first && c.right != cuts.corners().second) continue;
     EXPECT_NEAR(now[c.right].z - now[c.left].z,
-                std::lerp(higher(std::copysign(3 * canonical.depth, from)), told, lean.at(from)), 0.03)
+                std::lerp(higher(std::copysign(3 * canonical.depth, from)), told, lean.at(from)), 0.01)
         << from;
   }
 }
