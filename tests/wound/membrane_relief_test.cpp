@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "explorer/wound/corner_lean.h"
 #include "explorer/wound/replayed_wounds.h"
@@ -111,6 +112,21 @@ TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
     EXPECT_NEAR(growing[2][0](length - s).shift, -shift, 1e-6) << s;
     EXPECT_NEAR(growing[2][1](s).shift, -shift, 1e-6) << s;
   }
+}
+
+/// The corner between a cut and one that begins on it is thin. How it moves changes with its angle as little
+/// as the angle does: no angle is one at which elements of the cuts hold it less than at the next.
+TEST(MembraneRelief, OfACutThatLeavesAnotherChangesLittleWithTheAngle) {
+  const Field field = ellipses();
+  std::vector<double> at_start;
+  for (double degrees = 32; degrees <= 46; degrees += 0.5) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Cuts cuts(turning(field),
+                    {line(-15, 0, 15, 0), line(0.3, 0, 0.3 + 15 * std::cos(angle), 15 * std::sin(angle))});
+    at_start.push_back(relief_of(cuts, {15}).front()[1](0.3).shift);
+  }
+  for (std::size_t i = 1; i + 1 < at_start.size(); ++i)
+    EXPECT_NEAR(at_start[i], std::midpoint(at_start[i - 1], at_start[i + 1]), 0.005) << 32 + 0.5 * i;
 }
 
 /// A cut that leaves another one in its middle, and one that ends just before it.
