@@ -18,11 +18,11 @@ class CutMembrane {
  public:
   /// The stiffness of the springs for displacements in waves of the number w (radians for each mm): k for
   /// long ones, k (1 + more w^2 / (w^2 + 1 / l^2)) for short ones, with one `more` for waves that dilate the
-  /// sheet, the other for waves that shear it. The defaults are those with which openings of simulated cuts
-  /// that cross or meet at 20 to 90 degrees, 15 to 50 mm long, are right: the tissue below a cut holds back
-  /// what slides along it, and yields where its walls part.
+  /// sheet, the other for waves that shear it: the tissue below a cut holds back what slides along it, and
+  /// yields where its walls part. With the defaults openings of simulated paths that wind are right, and of
+  /// cuts that cross or meet, in pieces whose openings are constant.
   struct Springs {
-    double dilating = -1, shearing = 1.2;  ///< `more`, at least -1
+    double dilating = -1, shearing = 0.5;  ///< `more`, at least -1
     double length = 0.09;                  ///< l over the reach, at most a fifth
   };
 

@@ -29,8 +29,9 @@ constexpr double turned_away = 0.1;
 /// cuts that touch, the one between two others, 8 mm from both, is off by 0.1.
 constexpr double reach_apart = 0.87;
 constexpr CutMembrane::Springs springs_apart{-0.11, 2.19, 0.1};
-/// Of cuts that touch the length of the springs, in depths: openings of simulated crossings 2, 3 and 5 mm
-/// deep are right with it. Over the reach it is at most a fifth.
+/// The springs of cuts that touch, and their length in depths: openings of simulated crossings and branches
+/// 2, 3 and 5 mm deep are right with them. Over the reach the length is at most a fifth.
+constexpr CutMembrane::Springs springs_in_contact{-1, 1.2};
 constexpr double springs_in_depths = 0.36, longest_springs = 0.2;
 /// In stretches: they are longer, and end where cuts touch.
 constexpr double shortest = 0.3;
@@ -475,7 +476,7 @@ std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Woun
   if (!membrane) return result;
   double depth = 0;
   for (const Wound* cut : cuts) depth += cut->depth(cut->complete() / 2) / static_cast<double>(cuts.size());
-  CutMembrane::Springs springs;
+  CutMembrane::Springs springs = springs_in_contact;
   springs.length = std::min(longest_springs, springs_in_depths * depth / membrane->reach());
   const Together together(cuts, membrane->with(membrane->reach(), springs));
   for (std::size_t i = 0; i < blades.size(); ++i) result[i] = together.with_blade_at(blades[i]);
