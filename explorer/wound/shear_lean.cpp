@@ -73,6 +73,21 @@ double leaning_at(double s, const Wound& wound, double opening) {
   return leaning / opening * std::sqrt(std::clamp(from_end / (leans_fully * cut.depth), 0., 1.));
 }
 
+/// The place of another cut, nearest to lips of one that opens into it at `s`, mm: the other cut opens
+/// differently before and behind there, and all of these lips are in the skin on one side.
+double on_side_of(const Wound& branch, double s, const Wound& other) {
+  for (const bool at_end : {false, true}) {
+    const std::optional<double> mouth = other.mouth_of(branch, at_end);
+    const double depth = other.field.shape().cut().depth;
+    if (!mouth || std::abs(s - *mouth) > depth) continue;
+    const Vec3& along = branch.volume.skin_frame((at_end ? branch.complete() : 0) / branch.scale()).along;
+    const double way = dot(along, other.volume.skin_frame(*mouth / other.scale()).along);
+    return *mouth +
+           std::copysign(std::max(std::abs(s - *mouth), Crossing::corners_apart), at_end ? -way : way);
+  }
+  return s;
+}
+
 /// How many times as far lips lean at a place beside another cut as further away from it.
 double more_beside(const Wound& other, const ActiveVertex& at) {
   const double depth = other.depth(at.s), depths = std::abs(at.uvw.y) / depth;
@@ -98,7 +113,8 @@ void ShearLean::add(const Lips& lips) {
       if (!at || part == 0) return;
       const bool complete = j + 1 < cuts_.size();
       const IncisionVolume::Mouth* branch = cut.mouth_in(other);
-      places_.push_back({lips.cut, j, lips.station, at->s, part * leans * more_beside(other, *at),
+      const double s = branch ? on_side_of(cut, at->s, other) : at->s;
+      places_.push_back({lips.cut, j, lips.station, s, part * leans * more_beside(other, *at),
                          complete ? shear_across(other, *at, normal, other.complete(), branch) : 0, *at,
                          normal, branch});
     };
