@@ -16,8 +16,7 @@ namespace {
 /// Stretches of a cut (canonical_stretch), in the middles of which amplitudes are told.
 constexpr int most_stretches = 90, fewest_stretches = 8;
 /// A stretch is one piece; of so many next to a joint each is two, and the one at the joint is four, which
-/// end at these parts of it: openings change most there, above all where corners are acute. Half of all these
-/// lengths change openings of cuts that cross or meet at 20 to 90 degrees by at most 0.013.
+/// end at these parts of it: openings change most there, above all where corners are acute.
 constexpr int halved_stretches = 6;
 constexpr std::array<double, 3> next_to_joint = {2. / 16, 5. / 16, 9. / 16};
 /// In reaches of the membrane: displacements beside a cut are as good as 0 there.
