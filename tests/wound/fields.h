@@ -24,9 +24,8 @@ inline std::map<std::string, double> skin_on_springs() {
 ///   depth)
 /// so that the spline follows them roughly; tests only need a field that is smooth, opens, and is known
 /// exactly.
-inline Field opening_field(const CanonicalCut& cut, double length, double width, double height, double gape) {
-  const BSplineBasis u = BSplineBasis::uniform(3, 32, cut.start - (length - cut.length) / 2,
-                                               cut.start + (length + cut.length) / 2);
+inline Field opening_field(const CanonicalCut& cut, const BSplineBasis& u, double width, double height,
+                           double gape) {
   const BSplineBasis v = BSplineBasis::broken(3, 16, -width / 2, 0, width / 2);
   const BSplineBasis w = BSplineBasis::uniform(3, 8, -height, 0),
                      t = BSplineBasis::uniform(3, 12, 0, cut.length);
@@ -48,6 +47,13 @@ inline Field opening_field(const CanonicalCut& cut, double length, double width,
           c.push_back({0.1 * g, side * g, 0.2 * g});
         }
   return {u, v, w, t, std::move(c), cut};
+}
+
+inline Field opening_field(const CanonicalCut& cut, double length, double width, double height, double gape) {
+  return opening_field(cut,
+                       BSplineBasis::uniform(3, 32, cut.start - (length - cut.length) / 2,
+                                             cut.start + (length + cut.length) / 2),
+                       width, height, gape);
 }
 
 /// The field of a skin with such prestresses, MPa.

@@ -209,6 +209,34 @@ TEST(Guard, IsFoundForWhatIsShownWhereACutHasStopped) {
   EXPECT_EQ(at_stop, at_end);
 }
 
+/// The lips of a simulated cut part steeply next to its end: over the tenth of a millimetre between that
+/// and the first edge that the cut divides by more than three times that, on any mesh. With another cut, too.
+TEST(Guard, DoesNotHoldSeveralCutsForWhatTheFieldOfOneDoesAtItsEnd) {
+  const double first_edge = 0.105, start = -15 - first_edge;
+  const BSplineBasis steep(
+      3, {-30,         -30,         -30,         -30, -20, -16, start, start + 0.02, start + 0.05,
+          start + 0.1, start + 0.2, start + 0.5, -14, -13, -11, -8,    -4,           0,
+          5,           10,          13,          16,  20,  30,  30,    30,           30});
+  for (const bool another : {false, true}) {
+    Opened opened(grid(60, 80, -30, -40, 1));
+    opened.field = in_tension(opening_field({start, 30, 3}, steep, 40, 6, 7.6),
+                              {{"skin.prestress_u", 0.03}, {"skin.prestress_v", 0.03}});
+    if (another) opened.cut(path_through({{start, 20, 0}, {14, 20, 0}}, up, 3), as_it_is());
+    opened.cut(path_through({{start, -20.3, 0}, {14, -20.3, 0}}, up, 3), as_it_is());
+    const auto wounds = opened.wounds();
+    const Incision& cut = *opened.cuts.back();
+    const auto& next = cut.chain()[1];
+    ASSERT_NEAR(next.s, first_edge, 1e-9);
+    std::vector<Vec3> now(wounds->vertex_count());
+    wounds->positions(wounds->duration(), now);
+    const double opens = norm(now[next.right] - now[next.left]);
+    EXPECT_GT(opens, 2 * (0.05 + 3 * first_edge)) << another;
+    double most = 0;
+    for (const Guard::Change& change : wounds->guard().changes()) most = std::max(most, change.by);
+    EXPECT_LT(most, 0.02 * widest(*wounds, opened.cuts.size() - 1)) << another;
+  }
+}
+
 TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
   Opened opened(grid(60, 40, -30, -20, 1));
   for (const double y : {-0.25, 0.25}) opened.cut(path_through({{-15, y, 0}, {15, y, 0}}, up, 3));
