@@ -40,7 +40,7 @@ SimulatedWounds::SimulatedWounds(const std::vector<const Incision*>& cuts, doubl
 void SimulatedWounds::find_guard(const CutMesh& mesh) {
   const auto excused = [](int, int, double) { return true; };
   GuardSearch search(mesh, GuardSearch::least_jump_mm / scale_,
-                     {[](int, std::size_t, bool) { return false; }, excused, excused, {}});
+                     {[](int, std::size_t) { return false; }, excused, excused, {}});
   const std::size_t last = times_.size() - 1, count = std::min(most_looks, last);
   std::vector<Vec3> now(rest_.size());
   bool turns = false;

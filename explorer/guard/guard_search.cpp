@@ -81,8 +81,8 @@ bool GuardSearch::is_excused() const {
   return std::any_of(doubtful_.begin(), doubtful_.end(), [this](int one) { return offends_for_good(one); });
 }
 
-void GuardSearch::hold_excused(Excuse excuse) {
-  excuse_ = excuse;
+void GuardSearch::hold_excused() {
+  excused_ = false;
   offending_ = doubtful_;
   check({});
   reduce();
@@ -100,7 +100,7 @@ std::vector<GuardSearch::Remaining> GuardSearch::remaining() const {
   const std::vector<int> ones = doubtful();
   for (std::size_t k = 0; k < times(); ++k)
     for (const int one : ones)
-      if (!lasting_[k] && offends(one, k, Excuse::none)) found.push_back({one, k});
+      if (!lasting_[k] && offends(one, k, false)) found.push_back({one, k});
   return found;
 }
 
@@ -293,33 +293,32 @@ std::span<const int> GuardSearch::corners(int one) const {
   return one < 0 ? std::span<const int>(pairs_[-1 - one].vertex) : mesh_.triangle(one).vertex;
 }
 
-/// What fields do themselves is excused, or not.
-bool GuardSearch::offends(int one, std::size_t k, Excuse excuse) const {
+/// What the field does itself is excused, or not.
+bool GuardSearch::offends(int one, std::size_t k, bool excused) const {
   if (one < 0) {
     const Pair& pair = pairs_[-1 - one];
     const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], k); };
     return is_passed(one, moved(pair.vertex[0]), moved(pair.vertex[1])) &&
-           !(excuse != Excuse::none && field_.closes(pair.vertex[0], k));
+           !(excused && field_.closes(pair.vertex[0], k));
   }
   const std::array<Vec3, 3> now = moved(one, k);
   if (hardly_moves(one, now) || hardly_bends(one, now)) return false;
-  return is_torn(one, now) || (!is_kept(one, now) && !(excuse != Excuse::none &&
-                                                       field_.turns(one, k, excuse == Excuse::of_fields)));
+  return is_torn(one, now) || (!is_kept(one, now) && !(excused && field_.turns(one, k)));
 }
 
 /// With the cuts complete, excused or not.
 bool GuardSearch::offends_for_good(int one) const {
   for (std::size_t k = 0; k < times(); ++k)
-    if (lasting_[k] && offends(one, k, Excuse::none)) return true;
+    if (lasting_[k] && offends(one, k, false)) return true;
   return false;
 }
 
 bool GuardSearch::offends(int one) {
   if (poll_) poll_();
   for (std::size_t k = 0; k < times(); ++k) {
-    if ((only_lasting_ && !lasting_[k]) || !offends(one, k, Excuse::none)) continue;
+    if ((only_lasting_ && !lasting_[k]) || !offends(one, k, false)) continue;
     if (doubtful_.empty() || doubtful_.back() != one) doubtful_.push_back(one);
-    if (offends(one, k, excuse_)) return true;
+    if (!excused_ || offends(one, k, true)) return true;
   }
   return false;
 }
@@ -345,7 +344,7 @@ bool GuardSearch::field_is_to_blame() {
     bool by_field = false;
     for (std::size_t k = 0; k < times() && !by_field; ++k) {
       const std::array<Vec3, 3> now = moved(t, k);
-      by_field = !hardly_moves(t, now) && !is_kept(t, now) && field_.turns(t, k, false);
+      by_field = !hardly_moves(t, now) && !is_kept(t, now) && field_.turns(t, k);
     }
     turned += by_field;
   }

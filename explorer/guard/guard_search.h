@@ -28,13 +28,11 @@ class GuardSearch {
   /// What the field does itself, in its own flat patch: that is no fault of the mesh, and wounds are not held
   /// back for it for good. Times are numbers of calls of add(), from 0.
   struct ByField {
-    /// One field alone or, if they are asked for, several together: what these turn no field turns in its own
-    /// patch.
-    std::function<bool(int triangle, std::size_t time, bool together)> turns;
+    std::function<bool(int triangle, std::size_t time)> turns;
     std::function<bool(int a, int b, double jump)> stretches;    ///< an edge; jump in mesh units
     std::function<bool(int a, int b, double jump)> draws_apart;  ///< by nearly as much, where it lies alike
     std::function<bool(int left, std::size_t time)> closes;      ///< lips: moves them into each other
-    bool alone = true;                                           ///< it is the field of the only cut
+    bool alone = true;  ///< of one cut: what several turn together no field turns in its own patch
   };
 
   /// mm: neighbours that move apart by no more are never torn, and lips pass each other by no more.
@@ -58,12 +56,10 @@ class GuardSearch {
   /// the field turns itself. Means are found for all times. False where the field turns much of its own patch
   /// over: then it needs none.
   bool find();
-  /// What is left as it is, since fields turn it themselves: several together, one alone, or nothing.
-  enum class Excuse { of_fields, of_one_field, none };
-  /// Whether triangles are left that fields turn themselves, with the cuts complete; and holds back all but
-  /// those that are excused still.
+  /// Whether triangles are left that the field turns itself, with the cuts complete; and holds these back
+  /// too.
   bool is_excused() const;
-  void hold_excused(Excuse excuse);
+  void hold_excused();
   Guard result() const;
   std::size_t times() const { return moved_.size(); }
 
@@ -134,7 +130,7 @@ class GuardSearch {
   }
   std::array<Vec3, 3> moved(int triangle, std::size_t time) const;
   bool offends(int one);
-  bool offends(int one, std::size_t time, Excuse excuse) const;
+  bool offends(int one, std::size_t time, bool excused) const;
   bool offends_for_good(int one) const;
   /// By how much its lips pass each other; less than 0 where they are open.
   static double past(const Pair& pair, const Vec3& left, const Vec3& right) {
@@ -163,7 +159,9 @@ class GuardSearch {
   bool grow(std::vector<int>& group);
   void solve(const std::vector<int>& group, const std::vector<std::vector<Part>>& means);
   void reduce();
-  std::vector<int> even_out(std::vector<int> reduced);
+  void reduce(double strain);
+  double taken_for_good() const;
+  std::vector<int> even_out(std::vector<int> reduced, double strain);
   void renew(const std::vector<int>& numbers);
 
   /// Of the least jump: lips that pass each other by more are held back.
@@ -175,8 +173,7 @@ class GuardSearch {
   std::function<void()> poll_;
   std::vector<std::vector<std::pair<int, Vec3>>> moved_;  // [time]: vertices and their displacements
   std::vector<bool> lasting_;                             // [time]
-  bool only_lasting_ = false;                             // what offends
-  Excuse excuse_ = Excuse::of_fields;                     // likewise
+  bool only_lasting_ = false, excused_ = true;            // what offends
 
   std::vector<int> vertex_, number_;  // of the mesh by number, and back: -1 for what does not move
   std::vector<Vec3> own_, with_;      // [number][time]: displacements without and with the guard

@@ -92,9 +92,8 @@ class Wounds {
                 const Blade& blade) const;
   double part_made(const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest) const;
-  bool turned_by_field(int triangle, const Blade& blade, bool together) const;
-  bool turned_between_corners(int triangle, std::size_t cut, std::span<const double> ends,
-                              const Blade& blade) const;
+  bool turned_by_field(int triangle, const Blade& blade) const;
+  bool turned_between_corners(int triangle, const Blade& blade) const;
   bool stretched_by_field(int a, int b, double jump) const;
   bool drawn_apart_by_field(int a, int b, double jump) const;
   bool closed_by_field(int lip, const Blade& blade) const;

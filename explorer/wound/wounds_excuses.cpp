@@ -24,57 +24,48 @@ constexpr double most_drawn = 2;
 constexpr double part_closed = 0.4;
 }  // namespace
 
-/// Whether the field of one cut turns its own flat patch over at a triangle's corner, or nearly so; or what
-/// they change of the area together.
-bool Wounds::turned_by_field(int triangle, const Blade& blade, bool together) const {
-  std::array<double, 3> all{1, 1, 1};
-  const bool complete = blade.s >= wounds_[blade.cut].reached();
-  for (std::size_t k = 0; k <= blade.cut; ++k) {
-    const Wound& wound = wounds_[k];
-    const double s = k == blade.cut ? blade.s : wound.complete();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = wound.volume.locate(wound.incision->mesh().triangle(triangle).vertex[i]);
+/// Whether the fields turn their own flat patches over at a triangle's corner, or nearly so: each of them, or
+/// what they change of the area together.
+bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
+  for (const int v : wounds_.front().incision->mesh().triangle(triangle).vertex) {
+    double together = 1;
+    for (std::size_t k = 0; k <= blade.cut; ++k) {
+      const Wound& wound = wounds_[k];
+      const double s = k == blade.cut ? blade.s : wound.complete();
+      const auto at = wound.volume.locate(v);
       if (!at) continue;
+      const Side side = at->side_at(s);
       const double t = at->time_at(s, wound.field.shape().cut().length);
-      const Derivatives d = wound.field.derivatives(at->uvw, at->side_at(s), t, at->s);
-      const double area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z,
-                   change = amplitude(k, at->s, blade) * (area - 1);
-      all[i] += change;
-      if ((together ? area : 1 + change) < least_area) return true;
+      const Derivatives d = wound.field.derivatives(at->uvw, side, t, at->s);
+      const double area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z;
+      together += amplitude(k, at->s, blade) * (area - 1);
+      if (std::min(area, together) < least_area) return true;
     }
-    const std::array ends{s, 0.};
-    if ((k == blade.cut || complete) &&
-        turned_between_corners(triangle, k, std::span(ends).first(complete ? 2 : 1), blade))
-      return true;
   }
-  return together && *std::ranges::min_element(all) < least_area;
+  return turned_between_corners(triangle, blade);
 }
 
-/// The same for a triangle next to an end of what is cut, as it lies in the flat patch of that cut, moved by
-/// its field at its corners: a fit oscillates at the tip while it passes, between corners whose derivatives
-/// show nothing, and lips that slide along each other turn what is next to their end. Where the mesh lies in
-/// the patch as in space. Slivers are the mesh's fault.
-bool Wounds::turned_between_corners(int triangle, std::size_t cut, std::span<const double> ends,
-                                    const Blade& blade) const {
-  const Wound& wound = wounds_[cut];
-  const CutMesh& mesh = wound.incision->mesh();
+/// The same for a triangle next to the tip as it lies in the flat patch of the cut, moved by the field at its
+/// corners: a fit oscillates at the tip while it passes, between corners whose derivatives show nothing.
+/// Where the mesh lies in the patch as in space. Slivers are the mesh's fault.
+bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
+  const CutMesh& mesh = wounds_.front().incision->mesh();
   const auto& corners = mesh.triangle(triangle).vertex;
   const auto twice_area = [](const std::array<Vec3, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]); };
-  const double beside = tip_part * wound.field.shape().cut().depth;
-  const double tip = ends.front();
+  const Wound& wound = wounds_[blade.cut];
   std::array<Vec3, 3> space, rest, moved;
   double part = 1;  // the least: that displacements are held back from corner to corner is not the field's
   for (int i = 0; i < 3; ++i) {
     const auto at = wound.volume.locate(corners[i]);
-    const auto is_beside = [&](double end) { return std::abs(at->s - end) < beside; };
-    if (!at || std::ranges::none_of(ends, is_beside)) return false;
-    const double t = at->time_at(tip, wound.field.shape().cut().length);
+    if (!at || !(std::abs(at->s - blade.s) < tip_part * wound.field.shape().cut().depth)) return false;
+    const Side side = at->side_at(blade.s);
+    const double t = at->time_at(blade.s, wound.field.shape().cut().length);
     space[i] = wound.scale() * mesh.position(corners[i]);
     rest[i] = {at->s, at->uvw.y, 0};
     ActiveVertex flat = *at;
     flat.along = {1, 0, 0}, flat.across = {0, 1, 0}, flat.outward = {0, 0, 1};
     moved[i] =
-        relieved(cut, flat, corners[i], wound.field.displacement(at->uvw, at->side_at(tip), t, at->s), blade);
+        relieved(blade.cut, flat, corners[i], wound.field.displacement(at->uvw, side, t, at->s), blade);
     part = std::min(part, at->weight);
   }
   std::array<Vec3, 3> now = rest;
@@ -107,28 +98,22 @@ bool Wounds::stretched_by_field(int a, int b, double jump) const {
   return moved;
 }
 
-/// Whether the field of one cut moves two vertices apart by about as much as `jump`, mesh units, once all
-/// cuts are complete, where they are about as near to each other in its flat patch as in space.
+/// Whether the field of the only cut moves two vertices apart by about as much as `jump`, mesh units, once
+/// the cut is complete, where they are about as near to each other in its flat patch as in space.
 bool Wounds::drawn_apart_by_field(int a, int b, double jump) const {
-  const CutMesh& mesh = wounds_.front().incision->mesh();
-  const double length = wounds_.front().scale() * norm(mesh.position(b) - mesh.position(a));
-  const Blade end{size() - 1, wounds_.back().complete()};
-  for (std::size_t k = 0; k < size(); ++k) {
-    const Wound& wound = wounds_[k];
-    std::array<Vec3, 2> rest, moved;
-    bool both = true;
-    for (int i = 0; i < 2 && both; ++i) {
-      const auto at = wound.volume.locate(i == 0 ? a : b);
-      if (!(both = at.has_value())) break;
-      const double s = wound.complete(), t = at->time_at(s, wound.field.shape().cut().length);
-      rest[i] = {at->s, at->uvw.y, at->uvw.z};
-      moved[i] = amplitude(k, at->s, end) * wound.field.displacement(at->uvw, at->side_at(s), t, at->s);
-    }
-    if (both && norm(rest[1] - rest[0]) < about * length &&
-        about * norm(moved[1] - moved[0]) > jump * wound.scale())
-      return true;
+  if (wounds_.size() != 1) return false;
+  const Wound& wound = wounds_.front();
+  std::array<Vec3, 2> rest, moved;
+  for (int i = 0; i < 2; ++i) {
+    const auto at = wound.volume.locate(i == 0 ? a : b);
+    if (!at) return false;
+    const double s = wound.complete(), t = at->time_at(s, wound.field.shape().cut().length);
+    rest[i] = {at->s, at->uvw.y, at->uvw.z};
+    moved[i] = wound.field.displacement(at->uvw, at->side_at(s), t, at->s);
   }
-  return false;
+  const CutMesh& mesh = wound.incision->mesh();
+  const double length = wound.scale() * norm(mesh.position(b) - mesh.position(a));
+  return norm(rest[1] - rest[0]) < about * length && about * norm(moved[1] - moved[0]) > jump * wound.scale();
 }
 
 /// Whether the field of a cut moves its lips into each other.

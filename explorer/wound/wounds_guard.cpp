@@ -30,8 +30,8 @@ constexpr double least_between = 1e-4;
 constexpr double near_limit = 0.5;
 /// Of vertices, in all: more are not worth the time and the memory.
 constexpr std::size_t most_moments = 1000000;
-/// Of the largest opening, and mm: what one field turns itself in its own flat patch is not worth lips that
-/// are held back by more than both for good.
+/// Of the largest opening, and mm: what a field turns itself in its own flat patch is not worth lips that are
+/// held back by more than both for good, but of several cuts.
 constexpr double worth_an_excuse = 0.02, worth_an_excuse_mm = GuardSearch::least_jump_mm;
 }  // namespace
 
@@ -47,9 +47,7 @@ class Wounds::GuardLooks {
         alone_(alone),
         poll_(poll),
         search_(mesh_, GuardSearch::least_jump_mm / wounds[0].scale(),
-                {[this](int t, std::size_t time, bool together) {
-                   return wounds_.turned_by_field(t, blades_[time], together);
-                 },
+                {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
                  [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
                  [this](int a, int b, double jump) { return wounds_.drawn_apart_by_field(a, b, jump); },
                  [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); },
@@ -86,13 +84,9 @@ class Wounds::GuardLooks {
     if (search_.find()) {
       guard = search_.result();
       if (search_.is_excused()) {
-        if (wounds_.size() > 1) {
-          search_.hold_excused(GuardSearch::Excuse::of_one_field);
-          guard = search_.result();
-        }
-        search_.hold_excused(GuardSearch::Excuse::none);
+        search_.hold_excused();
         Guard strict = search_.result();
-        if (is_worth(strict, guard)) guard = std::move(strict);
+        if (wounds_.size() > 1 || is_worth(strict, guard)) guard = std::move(strict);
       }
       if (moments) hold_for_moments(guard);
     } else if (moments) {

@@ -210,8 +210,9 @@ TEST(Guard, IsFoundForWhatIsShownWhereACutHasStopped) {
 }
 
 /// The lips of a simulated cut part steeply next to its end: over the tenth of a millimetre between that
-/// and the first edge that the cut divides by more than three times that, on any mesh. With another cut, too.
-TEST(Guard, DoesNotHoldSeveralCutsForWhatTheFieldOfOneDoesAtItsEnd) {
+/// and the first edge that the cut divides by more than three times that. Where it is held for that, in skin
+/// with another cut, the lips further on are not: they were over 3 mm.
+TEST(Guard, HoldsLipsNextToTheEndOfACutAlone) {
   const double first_edge = 0.105, start = -15 - first_edge;
   const BSplineBasis steep(
       3, {-30,         -30,         -30,         -30, -20, -16, start, start + 0.02, start + 0.05,
@@ -227,13 +228,15 @@ TEST(Guard, DoesNotHoldSeveralCutsForWhatTheFieldOfOneDoesAtItsEnd) {
     const Incision& cut = *opened.cuts.back();
     const auto& next = cut.chain()[1];
     ASSERT_NEAR(next.s, first_edge, 1e-9);
-    std::vector<Vec3> now(wounds->vertex_count());
-    wounds->positions(wounds->duration(), now);
-    const double opens = norm(now[next.right] - now[next.left]);
-    EXPECT_GT(opens, 2 * (0.05 + 3 * first_edge)) << another;
-    double most = 0;
-    for (const Guard::Change& change : wounds->guard().changes()) most = std::max(most, change.by);
-    EXPECT_LT(most, 0.02 * widest(*wounds, opened.cuts.size() - 1)) << another;
+    const auto held = [&](int vertex) {
+      const auto& changes = wounds->guard().changes();
+      const auto change = std::ranges::find(changes, vertex, &Guard::Change::vertex);
+      return change == changes.end() ? 0. : change->by;
+    };
+    const double opens = widest(*wounds, opened.cuts.size() - 1);
+    EXPECT_EQ(held(next.left) > 0.01 * opens, another);
+    for (const Incision::ChainVertex& c : cut.chain())
+      if (c.s > 1) EXPECT_LT(std::max(held(c.left), held(c.right)), 0.01 * opens) << another << " " << c.s;
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <optional>
 #include <set>
 
 namespace cleft::stress {
@@ -163,53 +162,43 @@ class Look {
     return text;
   }
 
-  /// A vertex in the flat patch of one cut, mm, and what the field of that does there alone.
-  struct InPatch {
-    Vec3 rest, moved;
-    double area;  // over that at rest
-  };
-  std::optional<InPatch> in_patch_of(std::size_t cut, int vertex, double time) const {
-    const auto place = place_.find({vertex, cut});
-    if (place == place_.end()) return std::nullopt;
-    const ActiveVertex& a = *place->second;
-    const Wound& wound = wounds_[cut];
-    const ReplayedWounds::Blade blade = wounds_.blade(time);
-    const double s = cut < blade.cut ? wound.complete() : blade.s;
-    const double own = std::clamp(s + a.time_offset, 0., wound.field.shape().cut().length);
-    const Derivatives d =
-        wound.field.derivatives(a.uvw, a.on_cut && a.s >= s ? Side::both : a.side, own, a.s);
-    const double part = wounds_.amplitude(cut, a.s, blade);
-    return InPatch{in_patch(a), part * d.value,
-                   1 + part * (cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z - 1)};
-  }
-
-  /// Whether the field of one cut turns the triangle in its own patch, or where it has no room.
+  /// Whether the field turns the triangle in its own patch, or where it has no room.
   bool field_turns(int t, double time) const {
-    for (std::size_t cut = 0; cut <= wounds_.blade(time).cut; ++cut) {
-      Vec3 rest[3], now[3];
-      bool steep = false, all = true;
-      for (int i = 0; i < 3 && all; ++i) {
-        const auto corner = in_patch_of(cut, mesh_.triangle(t).vertex[i], time);
-        if (!(all = corner.has_value())) break;
-        rest[i] = corner->rest, now[i] = rest[i] + corner->moved;
-        steep = steep || corner->area < nearly_shrunk;
-      }
-      if (all && (steep || !kept(rest, now))) return true;
+    if (wounds_.size() != 1) return false;
+    Vec3 rest[3], now[3];
+    bool steep = false;
+    const auto& v = mesh_.triangle(t).vertex;
+    for (int i = 0; i < 3; ++i) {
+      const auto at = place_.find({v[i], 0});
+      if (at == place_.end()) return false;
+      const ActiveVertex& a = *at->second;
+      const double length = wounds_[0].field.shape().cut().length;
+      const Side side = a.on_cut && a.s >= time ? Side::both : a.side;
+      rest[i] = in_patch(a);
+      const double own = std::clamp(time + a.time_offset, 0., length);
+      const Derivatives d = wounds_[0].field.derivatives(a.uvw, side, own, a.s);
+      now[i] = rest[i] + d.value;
+      const Vec3 area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v);
+      steep = steep || area.z < nearly_shrunk;
     }
-    return false;
+    return steep || !kept(rest, now);
   }
 
-  /// Whether the field of one cut moves the ends of an edge apart by nearly as much in its own patch.
+  /// Whether the field moves the ends of an edge apart by nearly as much in its own patch.
   bool field_stretches(int t, int edge, double jump, double time) const {
+    if (wounds_.size() != 1) return false;
     const auto& v = mesh_.triangle(t).vertex;
-    const int from = v[edge], to = v[(edge + 1) % 3];
-    const double length = scale_ * norm(mesh_.position(to) - mesh_.position(from));
-    for (std::size_t cut = 0; cut <= wounds_.blade(time).cut; ++cut) {
-      const auto a = in_patch_of(cut, from, time), b = in_patch_of(cut, to, time);
-      if (a && b && norm(b->rest - a->rest) < as_far * length && norm(b->moved - a->moved) * as_far > jump)
-        return true;
+    Vec3 at[2], moved[2];
+    for (int i = 0; i < 2; ++i) {
+      const auto place = place_.find({v[(edge + i) % 3], 0});
+      if (place == place_.end()) return false;
+      const ActiveVertex& a = *place->second;
+      const Side side = a.on_cut && a.s >= time ? Side::both : a.side;
+      const double own = std::clamp(time + a.time_offset, 0., wounds_[0].field.shape().cut().length);
+      at[i] = in_patch(a), moved[i] = wounds_[0].field.displacement(a.uvw, side, own, a.s);
     }
-    return false;
+    const double rest = scale_ * norm(mesh_.position(v[(edge + 1) % 3]) - mesh_.position(v[edge]));
+    return norm(at[1] - at[0]) < as_far * rest && norm(moved[1] - moved[0]) * as_far > jump;
   }
 
   void look_at_pair(const Wound& wound, const Incision::ChainVertex& c, const std::vector<Vec3>& now) {
