@@ -43,6 +43,7 @@ void GuardSearch::reduce() {
   check(all);
 }
 
+/// The same with at most this strain.
 void GuardSearch::reduce(double strain) {
   for (int round = 0; round < rounds && !offending_.empty(); ++round) {
     std::vector<int> reduced;

@@ -91,7 +91,7 @@ struct Cut {
   std::vector<double> corners = {};              // mm along the path, where stretches begin and end
   std::vector<Eigen::Index> first_pieces = {0};  // of stretches, and the number of pieces
   std::vector<double> mouths = {};               // mm along the path, of cuts that open into it
-  bool opens_on = false;                         // at its end into another one
+  bool ends_in_another = false;
 
   Cut(const Wound& wound, std::vector<Joint> joints) {
     const double length = wound.complete();
@@ -99,7 +99,7 @@ struct Cut {
         std::clamp(canonical_stretch(wound), length / most_stretches, length / fewest_stretches);
     const std::vector<Joint> ends = ends_of(wound, std::move(joints), shortest * stretch);
     corners.push_back(ends.front().s);
-    opens_on = wound.volume.mouth(true).has_value();
+    ends_in_another = wound.volume.mouth(true).has_value();
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const Joint &from = ends[i], &to = ends[i + 1];
       const int count = std::max(1, static_cast<int>(std::lround((to.s - from.s) / stretch)));
@@ -329,7 +329,7 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
   // Ahead of the blade as at its tip. The skin between two cuts that open into it moves along it as a whole.
   result.values.resize(cut.stretches(), result.values.empty() ? ahead : result.values.back());
   result.shifts.resize(cut.stretches(), result.shifts.empty() ? 0 : result.shifts.back());
-  if (cut.opens_on) lead_to(cut.corners.back(), result);
+  if (cut.ends_in_another) lead_to(cut.corners.back(), result);
   // Up to where another cut opens into it, it opens as in the middle of the stretch next to there.
   for (const double mouth : cut.mouths) {
     const auto next = std::ranges::upper_bound(result.stations, mouth);
@@ -359,19 +359,19 @@ class Together {
     std::vector<Eigen::Index> first = {0};
     const std::size_t count = wounds.size();
     std::vector<std::vector<bool>> touch(count, std::vector<bool>(count, false));
-    std::vector<std::vector<Joint>> joints(count);
     std::vector<Vec3> places;  // of all of them
     for (std::size_t i = 0; i < count; ++i) {
+      std::vector<Joint> joints;
       for (std::size_t j = 0; j < count; ++j) {
         if (i == j) continue;
         for (const double s : touched_at(*wounds[i], *wounds[j])) {
-          joints[i].push_back({s, joint_at(*wounds[i], s, places)});
+          joints.push_back({s, joint_at(*wounds[i], s, places)});
           touch[i][i] = touch[i][j] = touch[j][i] = true;
         }
       }
       touch_.push_back(touch[i][i]);
       begins_.push_back(wounds[i]->volume.mouth(false).has_value());
-      cuts_.emplace_back(*wounds[i], joints[i]);
+      cuts_.emplace_back(*wounds[i], std::move(joints));
       for (std::size_t j = i + 1; j < count; ++j)
         for (const bool at_end : {false, true})
           if (const auto at = wounds[i]->mouth_of(*wounds[j], at_end)) cuts_.back().mouths.push_back(*at);
@@ -458,7 +458,8 @@ class Together {
       if (!touch_[k]) continue;
       // Where a cut opens into another one it has no end.
       const double length = cuts_[k].corners.back(), from = begins_[k] ? length / 2 : 0,
-                   to = cuts_[k].opens_on && (k + 1 < result.size() || has_run_on) ? length / 2 : length;
+                   to = cuts_[k].ends_in_another && (k + 1 < result.size() || has_run_on) ? length / 2
+                                                                                          : length;
       for (std::size_t i = 0; i < result[k].values.size(); ++i)
         if (from <= result[k].stations[i] && result[k].stations[i] <= to)
           result[k].values[i] = std::min(result[k].values[i], most_of_touching);
