@@ -2,10 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
+#include "explorer/wound/cut_membrane.h"
+#include "explorer/wound/membrane_cut.h"
 #include "explorer/wound/path_opening.h"
 #include "explorer/wound/touched_at.h"
 
@@ -13,15 +14,6 @@ namespace cleft {
 
 namespace {
 
-/// Stretches of a cut (canonical_stretch), in the middles of which amplitudes are told.
-constexpr int most_stretches = 90, fewest_stretches = 8;
-/// A stretch is one piece; of so many next to a joint each is two, and the one at the joint is four, which
-/// end at these parts of it: openings change most there, above all where corners are acute.
-constexpr int halved_stretches = 6;
-constexpr std::array<double, 3> next_to_joint = {2. / 16, 5. / 16, 9. / 16};
-/// Likewise of a stretch by which a cut is led on beyond a joint, to see how it opens alone: openings of the
-/// cut alone differ by less than 0.002 of the largest from those with twice as many.
-constexpr int pieces_beyond = 4;
 /// In reaches of the membrane: displacements beside a cut are as good as 0 there.
 constexpr double farthest = 4;
 /// Of the cosine between two normals: with less, the skin has turned away.
@@ -35,189 +27,17 @@ constexpr CutMembrane::Springs springs_apart{-0.11, 2.19, 0.1};
 /// 2, 3 and 5 mm deep are right with them. Over the reach the length is at most a fifth.
 constexpr CutMembrane::Springs springs_in_contact{-1, 1.2};
 constexpr double springs_in_depths = 0.36, longest_springs = 0.2;
-/// In stretches: they are longer, and end where cuts touch.
-constexpr double shortest = 0.3;
 /// How far a cut that touches another is taken to open at most, over what it opens alone: next to its ends,
 /// where it opens little alone, the field cannot open it otherwise.
 constexpr double most_of_touching = 1.1;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
 
-/// Where a cut touches others.
-struct Joint {
-  double s;                   ///< mm along its path
-  std::optional<Vec3> place;  ///< mm, the same for all cuts that touch there; none where stretches end anyway
-};
-
-/// Where a cut begins, touches others and ends, without joints that are nearer to each other than
-/// `shortest_way` (mm). What is beyond cuts that it begins and ends in opens nothing.
-std::vector<Joint> ends_of(const Wound& wound, std::vector<Joint> joints, double shortest_way) {
-  std::ranges::sort(joints, {}, &Joint::s);
-  Joint start{0, {}}, end{wound.complete(), {}};
-  const auto joined = [&](Joint& own, const Joint& joint, bool at_end) {
-    own.place = joint.place;
-    if (wound.volume.mouth(at_end)) own.s = joint.s;
-  };
-  if (!joints.empty() && joints.front().s < shortest_way) joined(start, joints.front(), false);
-  if (!joints.empty() && end.s - joints.back().s < shortest_way) joined(end, joints.back(), true);
-  std::vector<Joint> result = {start};
-  for (const Joint& joint : joints)
-    if (joint.s - result.back().s >= shortest_way && end.s - joint.s >= shortest_way) result.push_back(joint);
-  result.push_back(end);
-  return result;
-}
-
-/// Where the pieces of a stretch meet, as parts of it, with so many stretches between it and a joint before
-/// it and behind it.
-std::vector<double> between_pieces(int from_joint, int to_joint) {
-  std::vector<double> result;
-  for (const double part : next_to_joint) {
-    if (from_joint == 0) result.push_back(part);
-    if (to_joint == 0) result.push_back(1 - part);
-  }
-  std::ranges::sort(result);
-  if (result.empty() && std::min(from_joint, to_joint) < halved_stretches) result.push_back(0.5);
-  return result;
-}
-
-/// A cut in stretches, each of one or some straight pieces.
-struct Cut {
-  struct Piece {
-    Vec3 begin, middle, end;  // mm
-    PathFrame frame;          // in the middle
-    double s;                 // likewise, mm along the path
-  };
-  std::vector<Piece> pieces;
-  std::vector<double> corners = {};              // mm along the path, where stretches begin and end
-  std::vector<Eigen::Index> first_pieces = {0};  // of stretches, and the number of pieces
-  std::vector<double> mouths = {};               // mm along the path, of cuts that open into it
-  bool ends_in_another = false;
-
-  Cut(const Wound& wound, std::vector<Joint> joints) {
-    const double length = wound.complete();
-    const double stretch =
-        std::clamp(canonical_stretch(wound), length / most_stretches, length / fewest_stretches);
-    const std::vector<Joint> ends = ends_of(wound, std::move(joints), shortest * stretch);
-    corners.push_back(ends.front().s);
-    ends_in_another = wound.volume.mouth(true).has_value();
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      const Joint &from = ends[i], &to = ends[i + 1];
-      const int count = std::max(1, static_cast<int>(std::lround((to.s - from.s) / stretch)));
-      const std::size_t first = pieces.size();
-      for (int k = 0; k < count; ++k) {
-        const int from_joint = from.place ? k : halved_stretches,
-                  to_joint = to.place ? count - 1 - k : halved_stretches;
-        add_stretch(wound, std::lerp(from.s, to.s, (k + 1.) / count), between_pieces(from_joint, to_joint));
-      }
-      if (from.place) pieces[first].begin = *from.place;
-      if (to.place) pieces.back().end = *to.place;
-    }
-  }
-
-  std::size_t stretches() const { return first_pieces.size() - 1; }
-  Eigen::Index rows() const { return 2 * first_pieces.back(); }
-  /// The middles of stretches.
-  std::vector<double> stations() const {
-    std::vector<double> result;
-    for (std::size_t i = 0; i + 1 < corners.size(); ++i) result.push_back((corners[i] + corners[i + 1]) / 2);
-    return result;
-  }
-  double first_stretch() const { return corners[1] - corners[0]; }
-  double last_stretch() const { return corners.back() - corners.end()[-2]; }
-
-  /// The means over the stretches that begin with number `first`, of what is told for their pieces.
-  Eigen::VectorXd means(const Eigen::VectorXd& of_pieces, std::size_t first = 0) const {
-    const Eigen::Index begin = first_pieces[first], end = begin + of_pieces.size() / 2;
-    std::vector<Eigen::Vector2d> result;
-    for (std::size_t i = first; i < stretches() && first_pieces[i] < end; ++i) {
-      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-      double length = 0;
-      for (Eigen::Index k = first_pieces[i]; k < first_pieces[i + 1]; ++k) {
-        const Piece& piece = pieces[static_cast<std::size_t>(k)];
-        const double part = norm(piece.end - piece.begin);
-        sum += part * of_pieces.segment<2>(2 * (k - begin)), length += part;
-      }
-      result.push_back(sum / length);
-    }
-    return Eigen::Map<const Eigen::VectorXd>(result.empty() ? nullptr : result.front().data(),
-                                             2 * static_cast<Eigen::Index>(result.size()));
-  }
-
-  /// The pieces before and behind one in its stretch, or itself at an end of that; and half its own length
-  /// over the way between their middles.
-  struct Beside {
-    std::size_t before, behind;
-    double part;
-  };
-  Beside beside(std::size_t piece) const {
-    const auto next = std::ranges::upper_bound(first_pieces, static_cast<Eigen::Index>(piece));
-    const auto first = static_cast<std::size_t>(next[-1]), last = static_cast<std::size_t>(*next) - 1;
-    const auto half = [&](std::size_t i) { return norm(pieces[i].end - pieces[i].begin) / 2; };
-    Beside result{std::max(piece, first + 1) - 1, std::min(piece + 1, last), 0};
-    double way = 0;
-    for (std::size_t i = result.before; i < result.behind; ++i) way += half(i) + half(i + 1);
-    if (way > 0) result.part = half(piece) / way;
-    return result;
-  }
-
-  /// The same, begun `count` stretches before its start, straight.
-  Cut begun_before(int count) const {
-    Cut result = *this;
-    const double length = first_stretch();
-    for (int i = 0; i < count; ++i) {
-      for (int piece = 0; piece < pieces_beyond; ++piece) {
-        const Piece& next = result.pieces.front();
-        const Vec3 back = -length / pieces_beyond * next.frame.along;
-        result.pieces.insert(result.pieces.begin(),
-                             {next.begin + back, next.begin + 0.5 * back, next.begin, next.frame, next.s});
-      }
-      result.corners.insert(result.corners.begin(), result.corners.front() - length);
-      for (Eigen::Index& first : result.first_pieces) first += pieces_beyond;
-      result.first_pieces.insert(result.first_pieces.begin(), 0);
-    }
-    return result;
-  }
-
-  /// The same, run on by `way` mm beyond its end, straight, in `count` stretches.
-  Cut run_on(int count, double way) const {
-    Cut result = *this;
-    for (int i = 0; i < count; ++i) {
-      for (int piece = 0; piece < pieces_beyond; ++piece) {
-        const Piece& last = result.pieces.back();
-        const Vec3 on = way / count / pieces_beyond * last.frame.along;
-        result.pieces.push_back({last.end, last.end + 0.5 * on, last.end + on, last.frame, last.s});
-      }
-      result.end_stretch(result.corners.back() + way / count);
-    }
-    return result;
-  }
-
- private:
-  /// On to `end`, mm, in pieces that meet at these parts of it.
-  void add_stretch(const Wound& wound, double end, std::vector<double> parts) {
-    const double begin = corners.back(), scale = wound.scale();
-    const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
-    parts.push_back(1);
-    double from = begin;
-    for (const double part : parts) {
-      const double to = std::lerp(begin, end, part), middle = (from + to) / 2;
-      pieces.push_back(
-          {place(from), place(middle), place(to), wound.volume.skin_frame(middle / scale), middle});
-      from = to;
-    }
-    end_stretch(end);
-  }
-  void end_stretch(double at) {
-    corners.push_back(at);
-    first_pieces.push_back(static_cast<Eigen::Index>(pieces.size()));
-  }
-};
-
 /// What openings of one cut take from the tractions on another, whose skin is unrolled around each piece.
 /// Openings are told in the middles of pieces, in which they are as linear as between those of their stretch.
 /// Where they are constant in each piece, corners of 36 to 42 degrees between cuts, whatever the pieces,
 /// swing without limit: how a corner turns is no step from piece to piece.
-Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& from) {
+Eigen::MatrixXd taken(const CutMembrane& membrane, const MembraneCut& to, const MembraneCut& from) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(to.rows(), from.rows());
   for (std::size_t i = 0; i < to.pieces.size(); ++i) {
     const Vec3& middle = to.pieces[i].middle;
@@ -229,7 +49,7 @@ Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& fro
       return length > 0 ? Eigen::Vector2d(norm(way) / length * in_skin) : in_skin;
     };
     for (std::size_t j = 0; j < from.pieces.size(); ++j) {
-      const Cut::Piece& other = from.pieces[j];
+      const MembraneCut::Piece& other = from.pieces[j];
       if (norm(other.middle - middle) > farthest * membrane.reach() ||
           dot(other.frame.outward, frame.outward) < turned_away)
         continue;
@@ -238,7 +58,7 @@ Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& fro
         return result.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(piece));
       };
       of(j) += relief.leftCols<2>();
-      const Cut::Beside beside = from.beside(j);
+      const MembraneCut::Beside beside = from.beside(j);
       of(beside.behind) += beside.part * relief.rightCols<2>();
       of(beside.before) -= beside.part * relief.rightCols<2>();
     }
@@ -246,12 +66,21 @@ Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& fro
   return result;
 }
 
+/// How far each piece of a cut alone opens under the same tension across everywhere, in a membrane in which
+/// its openings take so much from its own tractions.
+Eigen::ArrayXd opened_by_tension(const Eigen::MatrixXd& taken_by_itself) {
+  const Eigen::Index pieces = taken_by_itself.rows() / 2;
+  Eigen::VectorXd tension(2 * pieces);
+  tension << Eigen::Vector2d(0, 1).replicate(pieces, 1);
+  return taken_by_itself.partialPivLu().solve(tension)(Eigen::seqN(1, pieces, 2)).array();
+}
+
 /// The shear, where the field tells one, and the tension across each piece before it is cut, MPa.
-Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
+Eigen::VectorXd tractions_on(const Wound& wound, const MembraneCut& cut) {
   const bool tells_shear = wound.field.shape().parameters.number("skin.prestress_uv").has_value();
   Eigen::VectorXd result(cut.rows());
   Eigen::Index row = 0;
-  for (const Cut::Piece& piece : cut.pieces) {
+  for (const MembraneCut::Piece& piece : cut.pieces) {
     result(row++) = tells_shear ? wound.field.prestress(&Prestress::uv, piece.s) : 0;
     result(row++) = wound.field.prestress(&Prestress::vv, piece.s);
   }
@@ -262,7 +91,7 @@ Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
 /// far from the start of one that has begun before; and as one that has run on beyond its end.
 class ShownAlone {
  public:
-  ShownAlone(const CutMembrane& membrane, const Wound& wound, const Cut& cut)
+  ShownAlone(const CutMembrane& membrane, const Wound& wound, const MembraneCut& cut)
       : opens_on_(wound.volume.opens_on(false)) {
     const double runs_on = wound.volume.opens_on(true);
     if (!(std::max(opens_on_, runs_on) > 0)) return;
@@ -298,7 +127,7 @@ class ShownAlone {
 
   double opens_on_ = 0, stretch_ = 0;  // mm
   int before_ = 0, after_ = 0;         // stretches
-  std::optional<Cut> longer_;
+  std::optional<MembraneCut> longer_;
   Eigen::MatrixXd taken_;
   Eigen::VectorXd tractions_;
 };
@@ -315,7 +144,7 @@ void lead_to(double s, Amplitude& amplitude) {
 }
 
 /// What is opened over what opens across the cut alone. `ahead`: where nothing is open yet.
-Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen::VectorXd& alone,
+Amplitude over_alone(const MembraneCut& cut, const Eigen::VectorXd& opened, const Eigen::VectorXd& alone,
                      double ahead = 1) {
   double largest = 0;
   for (Eigen::Index i = 1; i < alone.size(); i += 2) largest = std::max(largest, alone(i));
@@ -351,8 +180,10 @@ Vec3 joint_at(const Wound& cut, double s, std::vector<Vec3>& places) {
   return places.emplace_back(there);
 }
 
-/// All cuts in one membrane. With the last one cut in part, its first stretches alone are open: their
-/// equations are what the elimination of the complete cuts leaves.
+/// All cuts in one membrane. On those that it does not touch, a cut that touches others acts as it does in
+/// the membrane of cuts apart, in which it opens otherwise: by the same part of what it opens alone. With the
+/// last one cut in part, its first stretches alone are open: their equations are what the elimination of the
+/// complete cuts leaves.
 class Together {
  public:
   Together(const std::vector<const Wound*>& wounds, const CutMembrane& membrane) {
@@ -361,7 +192,7 @@ class Together {
     std::vector<std::vector<bool>> touch(count, std::vector<bool>(count, false));
     std::vector<Vec3> places;  // of all of them
     for (std::size_t i = 0; i < count; ++i) {
-      std::vector<Joint> joints;
+      std::vector<MembraneCut::Joint> joints;
       for (std::size_t j = 0; j < count; ++j) {
         if (i == j) continue;
         for (const double s : touched_at(*wounds[i], *wounds[j])) {
@@ -384,9 +215,19 @@ class Together {
     Eigen::VectorXd tractions(first.back());
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
       tractions.segment(first[i], cuts_[i].rows()) = tractions_on(*wounds[i], cuts_[i]);
-      for (std::size_t j = 0; j < cuts_.size(); ++j)
-        all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) =
-            taken(between(touch[i][j]), cuts_[i], cuts_[j]);
+      const auto block = [&](std::size_t j) {
+        return all.block(first[j], first[i], cuts_[j].rows(), cuts_[i].rows());
+      };
+      block(i) = taken(between(touch[i][i]), cuts_[i], cuts_[i]);
+      std::optional<Eigen::ArrayXd> as_apart;  // of its pieces
+      for (std::size_t j = 0; j < cuts_.size(); ++j) {
+        if (j == i) continue;
+        block(j) = taken(between(touch[i][j]), cuts_[j], cuts_[i]);
+        if (!touch[i][i] || touch[i][j]) continue;
+        if (!as_apart)
+          as_apart = opened_by_tension(taken(apart, cuts_[i], cuts_[i])) / opened_by_tension(block(i));
+        for (Eigen::Index k = 0; k < block(j).cols(); ++k) block(j).col(k) *= (*as_apart)(k / 2);
+      }
       shown_.emplace_back(between(touch[i][i]), *wounds[i], cuts_[i]);
       if (i + 1 < cuts_.size()) {
         alone_.push_back(cuts_[i].means(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
@@ -438,7 +279,7 @@ class Together {
 
   /// The same, which has run on or not.
   std::vector<Amplitude> with_stretches(std::size_t stretches, bool has_run_on) const {
-    const Cut& last = cuts_.back();
+    const MembraneCut& last = cuts_.back();
     const Eigen::Index rows = 2 * last.first_pieces[stretches];
     const Eigen::VectorXd opened =
         left_.topLeftCorner(rows, rows).partialPivLu().solve(left_tractions_.head(rows));
@@ -467,7 +308,7 @@ class Together {
     return result;
   }
 
-  std::vector<Cut> cuts_;
+  std::vector<MembraneCut> cuts_;
   std::vector<bool> touch_, begins_;  // others, and in others
   OpenedTo opened_to_;                // of the last one
   std::vector<ShownAlone> shown_;

@@ -209,7 +209,7 @@ class AtStations {
                  last = result.empty() ? 0 : result.back().first;
     for (const Crossing& crossing : crossings_)
       if (crossing.cut == cut && crossing.branch == 0)
-        for (const double fades : {-parts_within, -1., 0., 1., parts_within})
+        for (const double fades : {-parts_within, -1., -corner_part, 0., corner_part, 1., parts_within})
           if (const double s = crossing.s + fades * crossing.fades; first < s && s < last)
             result.emplace_back(s, std::nullopt);
     const auto earlier = [](const auto& a, const auto& b) { return a.first < b.first; };
@@ -406,11 +406,13 @@ class AtStations {
   static void lean_by_corners(const Crossing& crossing, const CornerLean& corners,
                               const std::vector<double>& stations, std::vector<double>& leans) {
     for (std::size_t k = 0; k < stations.size(); ++k) {
-      const double from = stations[k] - crossing.s;
-      const double beyond = std::abs(from) - corner_part * crossing.fades;
-      leans[k] = std::clamp(leaning_as(corners, std::copysign(std::max(least_step, beyond), from), leans[k]),
-                            -most_lean, most_lean) *
-                 std::lerp(1., std::min(1., std::abs(from) / crossing.fades), corners.share);
+      // What is at the crossing counts as `corner_part` of `fades` further along, what is at `fades` as there
+      // (BesideCut::keep_with_own_piece): `way` is how far from the crossing it is.
+      const double from = stations[k] - crossing.s, away = std::abs(from) / crossing.fades,
+                   part = std::max(0., away - corner_part) / (1 - corner_part),
+                   way = std::max(least_step, crossing.fades * std::min(away, part));
+      leans[k] = std::clamp(leaning_as(corners, std::copysign(way, from), leans[k]), -most_lean, most_lean) *
+                 std::lerp(1., std::min(1., away), corners.share);
     }
   }
 

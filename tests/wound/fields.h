@@ -23,9 +23,10 @@ inline std::map<std::string, double> skin_on_springs() {
 ///   d = (0.1 g, side g, 0.2 g),   g = gape * half ellipse over [start, start + t] * decay(v) * (1 + w /
 ///   depth)
 /// so that the spline follows them roughly; tests only need a field that is smooth, opens, and is known
-/// exactly.
+/// exactly. `held`, 0 to 1: a cut as long as a part of it opens by this power of that part more than in
+/// proportion to its length, as springs below hold back long ones.
 inline Field opening_field(const CanonicalCut& cut, const BSplineBasis& u, double width, double height,
-                           double gape) {
+                           double gape, double held = 0) {
   const BSplineBasis v = BSplineBasis::broken(3, 16, -width / 2, 0, width / 2);
   const BSplineBasis w = BSplineBasis::uniform(3, 8, -height, 0),
                      t = BSplineBasis::uniform(3, 12, 0, cut.length);
@@ -43,17 +44,20 @@ inline Field opening_field(const CanonicalCut& cut, const BSplineBasis& u, doubl
           const double inside = std::max(0.0, x * (time - x));
           const double side = j < v.size() / 2 ? -1 : 1;
           const double depth = std::max(0.0, 1 + greville(w, k) / cut.depth);
-          const double g = gape * std::sqrt(inside) / cut.length * std::exp(-3 * std::abs(y) / width) * depth;
+          const double held_back = time > 0 ? std::pow(time / cut.length, held) : 1;
+          const double g =
+              gape * std::sqrt(inside) / cut.length / held_back * std::exp(-3 * std::abs(y) / width) * depth;
           c.push_back({0.1 * g, side * g, 0.2 * g});
         }
   return {u, v, w, t, std::move(c), cut};
 }
 
-inline Field opening_field(const CanonicalCut& cut, double length, double width, double height, double gape) {
+inline Field opening_field(const CanonicalCut& cut, double length, double width, double height, double gape,
+                           double held = 0) {
   return opening_field(cut,
                        BSplineBasis::uniform(3, 32, cut.start - (length - cut.length) / 2,
                                              cut.start + (length + cut.length) / 2),
-                       width, height, gape);
+                       width, height, gape, held);
 }
 
 /// The field of a skin with such prestresses, MPa.
