@@ -101,7 +101,7 @@ void BesideCut::keep_with_own_piece(const ActiveVertex& vertex, int nearest, std
       s += (1 - away) * corner_part * behind * crossing.fades;
       continue;
     }
-    corner_s = corner == 0 ? s : corner_s;
+    side = crossing.side(), corner_s = corner == 0 ? s : corner_s;
     corner_s = behind < 0 ? std::min(corner_s, crossing.before()) : std::max(corner_s, crossing.behind());
     if (const double part = 1 - away * away; part > corner) corner = part, mouth = number;
   }

@@ -26,6 +26,8 @@ struct Crossing {
   double branch = 0;  ///< the side of this cut from which the other one opens into it, -1 or 1; 0: they cross
   bool at_end = false;  ///< it opens into it with its end
   double way = 0;       ///< mm along the other one that opens into it: the blade is then `fades` away
+  /// Of this cut, where the other one opens into it: 0 at v < 0, 1 at v > 0.
+  std::size_t side() const { return branch > 0 ? 1 : 0; }
   /// mm along the cut to either side, in which vertices keep with their own piece.
   double reach() const;
   /// mm along the cut: of the corners before and behind one that opens into it.
@@ -41,6 +43,7 @@ struct BesideCut {
   double s = 0;         ///< mm along the path
   double corner_s = 0;  ///< where another cut opens into this one: of the corner to which the vertex belongs
   double corner = 0;    ///< how far it moves with that corner where it is free, 0 to 1
+  std::size_t side = 0;   ///< of this cut, on which that is (Crossing::side)
   std::size_t mouth = 0;  ///< which of those that open into this cut, in the order of crossings_of
   Vec3 across;            ///< in the mesh's space, shorter the further from the lips
   Vec3 along, outward;    ///< unit

@@ -386,11 +386,8 @@ class AtStations {
 
   /// The lip into which another cut opens parts from the other one, which stays whole, by what is wanted.
   static void part_lip(const Mouth& mouth, const Amplitude& wanted, Amplitude& cut) {
-    if (cut.of_corners.empty()) {
-      const Amplitude whole = cut;
-      cut.of_corners.push_back(whole);
-    }
-    Amplitude& corners = cut.of_corners.front();
+    if (cut.of_corners.empty()) cut.of_corners = std::vector<Amplitude>(2, cut);
+    Amplitude& corners = cut.of_corners[mouth.at.side()];
     for (std::size_t k = mouth.first + 1; k < mouth.last; ++k) {
       const auto part = [&, k](std::vector<double>& corner, const std::vector<double>& all,
                                const std::vector<double>& joined, double least, double most_there) {

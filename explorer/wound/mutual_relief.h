@@ -25,8 +25,8 @@ namespace cleft {
 struct Amplitude {
   std::vector<double> stations, values;
   std::vector<double> leans = {}, shifts = {};  ///< none: 0
-  /// Those of the lip into which other cuts open, next to there, where the other lip stays whole; at most
-  /// one, none where no other does.
+  /// Those of a lip into which other cuts open, next to there, where the lip across stays whole: of that at
+  /// v < 0, and of that at v > 0; none where no other does.
   std::vector<Amplitude> of_corners = {};
   std::vector<double> free = {};  ///< 0 to 1: how far the corners beside each of these cuts have parted
   struct At {
@@ -42,7 +42,7 @@ struct Amplitude {
   At operator()(const BesideCut& at) const {
     const At there = (*this)(at.s);
     const double part = at.mouth < free.size() ? at.corner * free[at.mouth] : 0;
-    return part == 0 || of_corners.empty() ? there : there.toward(of_corners.front()(at.corner_s), part);
+    return part == 0 || of_corners.empty() ? there : there.toward(of_corners[at.side](at.corner_s), part);
   }
   double at(double s) const { return (*this)(s).value; }
 };
