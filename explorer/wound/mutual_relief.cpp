@@ -103,17 +103,20 @@ class AtStations {
       own.values.assign(own.stations.size(), 1);
       own.leans = own.shifts = std::vector<double>(own.stations.size(), 0);
     }
+    std::vector<std::size_t> numbers(cuts.size(), 0);
     for (const Crossing& mouth : crossings_) {
       if (mouth.branch == 0) continue;
+      const std::size_t number = numbers[mouth.cut]++;
       const std::vector<double>& s = alone_[mouth.cut].stations;
       const double beside = beside_mouth(mouth);
       const auto first = std::ranges::lower_bound(s, mouth.s - beside),
                  last = std::ranges::upper_bound(s, mouth.s + beside);
       if (first == s.begin() || last == s.end()) continue;
-      mouths_.push_back({mouth, static_cast<std::size_t>(first - s.begin()) - 1,
-                         static_cast<std::size_t>(last - s.begin()),
-                         static_cast<std::size_t>(std::ranges::lower_bound(s, mouth.s) - s.begin())});
+      mouths_.push_back(
+          {mouth, static_cast<std::size_t>(first - s.begin()) - 1, static_cast<std::size_t>(last - s.begin()),
+           static_cast<std::size_t>(std::ranges::lower_bound(s, mouth.s) - s.begin()), number, std::nullopt});
     }
+    find_across();
   }
 
   std::vector<Amplitude> with_blade_at(double blade, const std::vector<Amplitude>& in_membrane) const {
@@ -148,9 +151,9 @@ class AtStations {
     for (const Mouth& mouth : mouths_) keep_opening(mouth, result[mouth.at.cut]);
     const std::vector<Amplitude> wanted = result;
     for (const Mouth& mouth : mouths_) join_over_mouth(mouth, result[mouth.at.cut]);
-    for (const Mouth& mouth : mouths_) part_lip(mouth, wanted[mouth.at.cut], result[mouth.at.cut]);
     for (const Crossing& mouth : crossings_)
       if (mouth.branch != 0) result[mouth.cut].free.push_back(free_corners(mouth, blade));
+    for (const Mouth& mouth : mouths_) part_lip(mouth, wanted[mouth.at.cut], result[mouth.at.cut]);
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
       if (crossings_[i].branch != 0) continue;
       Amplitude& cut = result[crossings_[i].cut];
@@ -176,8 +179,34 @@ class AtStations {
   /// Where another cut opens into one, the stations between which its other lip is joined.
   struct Mouth {
     Crossing at;
-    std::size_t first, last, behind;  // and that of the corner behind it, after that of the other one
+    std::size_t first, last, behind;    // and that of the corner behind it, after that of the other one
+    std::size_t number;                 // in Amplitude::free
+    std::optional<std::size_t> across;  // one that opens into the lip across between these stations
   };
+
+  /// Lips between the mouths of two cuts that open into both of them are joined as if there were one mouth.
+  void find_across() {
+    for (std::size_t i = 0; i < mouths_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        Mouth &one = mouths_[i], &other = mouths_[j];
+        if (one.at.cut != other.at.cut || one.at.branch == other.at.branch || one.across || other.across ||
+            one.first >= other.last || other.first >= one.last)
+          continue;
+        one.across = j, other.across = i;
+        one.first = other.first = std::min(one.first, other.first);
+        one.last = other.last = std::max(one.last, other.last);
+      }
+  }
+
+  /// Which part of how lips part beside a mouth is that of its own lip: all but what one that opens into the
+  /// lip across parts there, the more the nearer to it.
+  double own_part(const Mouth& mouth, double s, const std::vector<double>& free) const {
+    if (!mouth.across) return 1;
+    const Mouth& other = mouths_[*mouth.across];
+    const double way = other.at.s - mouth.at.s;
+    const double nearer = std::abs(way) > Crossing::corners_apart ? (s - mouth.at.s) / way : 0.5;
+    return 1 - free[other.number] * std::clamp(nearer, 0., 1.);
+  }
 
   /// mm of a cut to either side of where another one opens into it.
   double beside_mouth(const Crossing& mouth) const {
@@ -356,12 +385,8 @@ class AtStations {
 
   /// How far the corners beside one that opens into it are free, with the blade of the last cut there: 0
   /// until all skin that moves with them is cut, then up to 1. One that ends there has opened half-way on
-  /// then. Where another one opens into the lip across nothing tells which of the two parts what.
+  /// then.
   double free_corners(const Crossing& mouth, double blade) const {
-    for (const Crossing& other : crossings_)
-      if (other.cut == mouth.cut && other.branch == -mouth.branch &&
-          std::abs(other.s - mouth.s) < beside_mouth(other) + beside_mouth(mouth))
-        return 0;
     const Wound& later = *cuts_[mouth.other];
     if (mouth.other + 1 < cuts_.size()) blade = later.complete();
     if (!mouth.at_end) return std::clamp((blade - mouth.way) / (parted_over * mouth.way), 0., 1.);
@@ -385,13 +410,14 @@ class AtStations {
   }
 
   /// The lip into which another cut opens parts from the other one, which stays whole, by what is wanted.
-  static void part_lip(const Mouth& mouth, const Amplitude& wanted, Amplitude& cut) {
+  void part_lip(const Mouth& mouth, const Amplitude& wanted, Amplitude& cut) const {
     if (cut.of_corners.empty()) cut.of_corners = std::vector<Amplitude>(2, cut);
     Amplitude& corners = cut.of_corners[mouth.at.side()];
     for (std::size_t k = mouth.first + 1; k < mouth.last; ++k) {
+      const double own = 2 * own_part(mouth, cut.stations[k], cut.free);
       const auto part = [&, k](std::vector<double>& corner, const std::vector<double>& all,
                                const std::vector<double>& joined, double least, double most_there) {
-        corner[k] = std::clamp(2 * all[k] - joined[k], least, most_there);
+        corner[k] = std::clamp(joined[k] + own * (all[k] - joined[k]), least, most_there);
       };
       part(corners.values, wanted.values, cut.values, 0, most_opening);
       part(corners.leans, wanted.leans, cut.leans, -2 * most_lean, 2 * most_lean);

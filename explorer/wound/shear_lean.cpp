@@ -96,6 +96,17 @@ double more_beside(const Wound& other, const ActiveVertex& at) {
          more * std::clamp((leans_as_others_from - depths) / (leans_as_others_from - leans_more_to), 0., 1.);
 }
 
+/// Whether they open into the same earlier cut from either side: its walls pass no shear from one to the
+/// other.
+bool on_both_sides_of_a_cut(const Wound& one, const Wound& other) {
+  for (const bool end_of_one : {false, true})
+    for (const bool end_of_other : {false, true}) {
+      const auto &a = one.volume.mouth(end_of_one), &b = other.volume.mouth(end_of_other);
+      if (a && b && a->earlier == b->earlier && a->right != b->right) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 ShearLean::ShearLean(const std::vector<const Wound*>& cuts) : cuts_(cuts), stations_(cuts.size(), 0) {}
@@ -106,8 +117,8 @@ void ShearLean::add(const Lips& lips) {
   const double leans = leaning_at(lips.s, cut, lips.opening);
   const Vec3 normal = cut.volume.skin_frame(lips.s / cut.scale()).across;
   for (std::size_t j = 0; j < cuts_.size(); ++j) {
-    if (j == lips.cut) continue;
     const Wound& other = *cuts_[j];
+    if (j == lips.cut || on_both_sides_of_a_cut(cut, other)) continue;
     const auto add = [&](int lip, double part) {
       const std::optional<ActiveVertex> at = other.volume.locate(lip);
       if (!at || part == 0) return;

@@ -9,6 +9,7 @@
 #include "explorer/wound/corner_lean.h"
 #include "explorer/wound/membrane_relief.h"
 #include "explorer/wound/replayed_wounds.h"
+#include "explorer/wound/shear_lean.h"
 #include "tests/wound/fields.h"
 #include "tests/wound/opened_cuts.h"
 
@@ -140,17 +141,53 @@ TEST(Branch, ItsCornersPartWhenTheBladeIsFarFromThem) {
   EXPECT_NEAR(free(1.5 * mouth.way), 1, 1e-6);
 }
 
-/// Nothing tells which of two that open into a cut from both sides parts what of its lips.
-TEST(Branch, ThatFacesAnotherOneLeavesBothLipsWhole) {
+/// Of two that open into a cut from both sides each parts the lip on its own side. With corners that were
+/// those of both lips, a branch tore the lip across from the mouth of another one, 8 mm away.
+TEST(Branch, ThatFacesAnotherOnePartsItsOwnLipAlone) {
   const Field field = evenly_pulled();
-  for (const double apart : {0.6, 8.}) {
+  for (const double apart : {0.6, 2., 8.}) {
     Made made;
     const ReplayedWounds wounds(made.open(
-        field, {line(-15, 0.1, 15, 0.1), line(-5, 0, -5, 16), line(apart - 5, 0.2, apart - 5, -16)}));
-    const std::vector<double> free =
-        mutual_relief({&wounds[0], &wounds[1], &wounds[2]}, {16}).front()[0].free;
-    ASSERT_EQ(free.size(), 2u);
-    for (const double one : free) EXPECT_NEAR(one, apart < 3 ? 0 : 1, 1e-9) << apart;
+        field, {line(-15, 0.1, 15, 0.1), line(-5, 0, -2, 16), line(apart - 5, 0.2, apart - 2, -16)}));
+    const std::vector<const Wound*> all = {&wounds[0], &wounds[1], &wounds[2]};
+    const Amplitude cut = mutual_relief(all, {wounds[2].complete()}).front()[0];
+    ASSERT_EQ(cut.of_corners.size(), 2u);
+    EXPECT_EQ(cut.free, std::vector<double>({1, 1}));
+    for (const Crossing& mouth : crossings_of(all)) {
+      const auto step = [&](const Amplitude& lip) {
+        return std::abs(lip(mouth.behind()).lean - lip(mouth.before()).lean);
+      };
+      EXPECT_GT(step(cut.of_corners[mouth.side()]), 0.1) << apart;
+      EXPECT_LT(step(cut.of_corners[1 - mouth.side()]), 1e-5) << apart;
+    }
+  }
+}
+
+/// The walls of the cut into which both open pass no shear from one to the other: its lips leaned by 0.2 of
+/// what they open for one beyond the cut.
+TEST(Branch, LeansForNoneBeyondTheCutThatItOpensInto) {
+  const Field field = evenly_pulled();
+  for (const double side : {-1., 1.}) {
+    Made made;
+    const ReplayedWounds wounds(made.open(
+        field, {line(-15, 0.1, 15, 0.1), line(0, 0, 0, 16), line(4, 16 * side, 4, 0.1 - 0.1 * side)}));
+    const std::vector<const Wound*> all = {&wounds[0], &wounds[1], &wounds[2]};
+    ASSERT_TRUE(wounds[2].mouth_in(wounds[0]));
+    ShearLean by_shear(all);
+    std::size_t station = 0;
+    for (const Incision::ChainVertex& c : made.cuts[1]->chain())
+      if (c.left != c.right) by_shear.add({1, station++, c.s, 3, c.left, c.right});
+    const ShearLean::Leans leans = by_shear.leans(16, membrane_relief(all, {16}).front());
+    double by_cut = 0, by_branch = 0;
+    for (std::size_t k = 0; k < station; ++k) {
+      by_cut = std::max(by_cut, std::abs(leans[1][0][k]));
+      by_branch = std::max(by_branch, std::abs(leans[1][2][k]));
+    }
+    EXPECT_GT(by_cut, 0.02);
+    if (side > 0)
+      EXPECT_GT(by_branch, 0.02);
+    else
+      EXPECT_EQ(by_branch, 0);
   }
 }
 
