@@ -40,10 +40,10 @@ std::vector<Crossing> crossings_of(const std::vector<const Wound*>& cuts);
 
 /// A vertex beside a cut, as its relief needs it.
 struct BesideCut {
-  double s = 0;         ///< mm along the path
-  double corner_s = 0;  ///< where another cut opens into this one: of the corner to which the vertex belongs
-  double corner = 0;    ///< how far it moves with that corner where it is free, 0 to 1
-  std::size_t side = 0;   ///< of this cut, on which that is (Crossing::side)
+  double s = 0;          ///< mm along the path
+  double corner_s = 0;   ///< where another cut opens into this one: of the corner to which the vertex belongs
+  double corner = 0;     ///< how far it moves with that corner where it is free, 0 to 1
+  std::size_t side = 0;  ///< of this cut, on which that is (Crossing::side)
   std::size_t mouth = 0;  ///< which of those that open into this cut, in the order of crossings_of
   Vec3 across;            ///< in the mesh's space, shorter the further from the lips
   Vec3 along, outward;    ///< unit
