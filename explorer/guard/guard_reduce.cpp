@@ -40,7 +40,7 @@ void GuardSearch::reduce() {
   }
   factor_ = best, offending_.clear();
   renew(all);
-  check(all);
+  check_all();
 }
 
 /// The same with at most this strain.

@@ -180,10 +180,10 @@ Vec3 joint_at(const Wound& cut, double s, std::vector<Vec3>& places) {
   return places.emplace_back(there);
 }
 
-/// All cuts in one membrane. On those that it does not touch, a cut that touches others acts as it does in
-/// the membrane of cuts apart, in which it opens otherwise: by the same part of what it opens alone. With the
-/// last one cut in part, its first stretches alone are open: their equations are what the elimination of the
-/// complete cuts leaves.
+/// All cuts in one membrane. A cut opens more in the membrane of cuts that touch than in that of cuts apart:
+/// on those that it does not touch it acts by what it would open in the latter. With the last one cut in
+/// part, its first stretches alone are open: their equations are what the elimination of the complete cuts
+/// leaves.
 class Together {
  public:
   Together(const std::vector<const Wound*>& wounds, const CutMembrane& membrane) {
@@ -230,9 +230,8 @@ class Together {
       }
       shown_.emplace_back(between(touch[i][i]), *wounds[i], cuts_[i]);
       if (i + 1 < cuts_.size()) {
-        alone_.push_back(cuts_[i].means(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
-                                            .partialPivLu()
-                                            .solve(tractions.segment(first[i], cuts_[i].rows()))));
+        alone_.push_back(
+            cuts_[i].means(block(i).partialPivLu().solve(tractions.segment(first[i], cuts_[i].rows()))));
         shown_[i].in(alone_.back(), true);
       }
     }

@@ -179,12 +179,13 @@ class AtStations {
   /// Where another cut opens into one, the stations between which its other lip is joined.
   struct Mouth {
     Crossing at;
-    std::size_t first, last, behind;    // and that of the corner behind it, after that of the other one
-    std::size_t number;                 // in Amplitude::free
-    std::optional<std::size_t> across;  // one that opens into the lip across between these stations
+    std::size_t first, last, behind;  // and that of the corner behind it, after that of the other one
+    std::size_t number;               // in Amplitude::free
+    std::optional<std::size_t>
+        across;  // the number in mouths_ of one in the other lip, between these stations
   };
 
-  /// Lips between the mouths of two cuts that open into both of them are joined as if there were one mouth.
+  /// Pairs of mouths in opposite lips whose stations overlap: both lips are joined over the stations of both.
   void find_across() {
     for (std::size_t i = 0; i < mouths_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -198,8 +199,8 @@ class AtStations {
       }
   }
 
-  /// Which part of how lips part beside a mouth is that of its own lip: all but what one that opens into the
-  /// lip across parts there, the more the nearer to it.
+  /// The share of what parts the lips at s mm that the lip with this mouth takes: all of it or, where another
+  /// cut opens into the lip across, less the nearer to that one's mouth.
   double own_part(const Mouth& mouth, double s, const std::vector<double>& free) const {
     if (!mouth.across) return 1;
     const Mouth& other = mouths_[*mouth.across];

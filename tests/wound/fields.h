@@ -23,8 +23,8 @@ inline std::map<std::string, double> skin_on_springs() {
 ///   d = (0.1 g, side g, 0.2 g),   g = gape * half ellipse over [start, start + t] * decay(v) * (1 + w /
 ///   depth)
 /// so that the spline follows them roughly; tests only need a field that is smooth, opens, and is known
-/// exactly. `held`, 0 to 1: a cut as long as a part of it opens by this power of that part more than in
-/// proportion to its length, as springs below hold back long ones.
+/// exactly. `held`, 0 to 1: the opening grows with the length of the cut to the power of 1 - held, as springs
+/// below hold back long cuts.
 inline Field opening_field(const CanonicalCut& cut, const BSplineBasis& u, double width, double height,
                            double gape, double held = 0) {
   const BSplineBasis v = BSplineBasis::broken(3, 16, -width / 2, 0, width / 2);

@@ -257,8 +257,8 @@ TEST(MembraneRelief, IsOneOfFieldsThatDoNotOpen) {
   for (const Amplitude& one : found.front()) EXPECT_EQ(one.at(10), 1);
 }
 
-/// Cuts that touch feel each other through another membrane than cuts apart, in which each opens otherwise:
-/// on those apart a cut that is crossed acts as before, and not by a tenth more.
+/// Cuts that touch feel each other through another membrane than cuts apart, in which each opens more: on
+/// cuts apart, one that is crossed acts as one that is not. It acted by more.
 TEST(MembraneRelief, OfACutBesideAnotherIsTheSameWhenThatOneIsCrossed) {
   const Field field = in_tension(opening_field(canonical, 50, 50, 6, 3, 0.8), {{"skin.prestress_v", 0.03}});
   const std::vector<Vec3> first = line(-15, -4, 15, -4), second = line(-15, 4, 15, 4);
