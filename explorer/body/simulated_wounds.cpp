@@ -98,6 +98,13 @@ void SimulatedWounds::bare_positions(double t, std::span<Vec3> out) const {
   for (const Place& place : places_) out[place.vertex] += 1 / scale_ * displacement(place, t);
 }
 
+ReplayOff SimulatedWounds::off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
+                               double t) const {
+  std::vector<Vec3> simulated(rest_.size());
+  bare_positions(t, simulated);
+  return replay_off(cuts, replayed, simulated, reach_of_ends_);
+}
+
 std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> positions) {
   std::vector<int> turned;
   for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t) {

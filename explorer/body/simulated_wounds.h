@@ -14,6 +14,16 @@
 
 namespace cleft {
 
+/// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest
+/// one, and of the vectors from lip to lip along the cuts, over the largest opening. Lengths in mesh units.
+/// Vertices within `end` of the ends of cuts do not count.
+struct ReplayOff {
+  double largest = 0, displacement = 0;
+  double gape = 0, opening = 0;
+  double relative_displacement() const { return largest > 0 ? displacement / largest : 0; }
+  double relative_opening() const { return gape > 0 ? opening / gape : 0; }
+};
+
 class SimulatedWounds {
  public:
   /// `cuts`: all of one mesh, complete, in the order in which they were made, along the paths of the body.
@@ -36,6 +46,9 @@ class SimulatedWounds {
   /// What keeps triangles of this mesh from turning over where the simulated skin folds, or where they are
   /// too large or too slender for it. Empty where none turns over, and where most of the wound does.
   const Guard& guard() const { return guard_; }
+  /// How far replayed positions at t are from the simulation itself, that is without the guard; where the
+  /// mesh takes the ends of the body does not count. `cuts`: those that were simulated.
+  ReplayOff off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed, double t) const;
 
   /// The largest opening at t, mm.
   double gape(double t) const;
@@ -65,15 +78,6 @@ class SimulatedWounds {
 /// Triangles of the skin that are turned over (guard_search.h). `positions`: of all vertices.
 std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> positions);
 
-/// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest
-/// one, and of the vectors from lip to lip along the cuts, over the largest opening. Lengths in mesh units.
-/// Vertices within `end` of the ends of cuts do not count.
-struct ReplayOff {
-  double largest = 0, displacement = 0;
-  double gape = 0, opening = 0;
-  double relative_displacement() const { return largest > 0 ? displacement / largest : 0; }
-  double relative_opening() const { return gape > 0 ? opening / gape : 0; }
-};
 ReplayOff replay_off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
                      std::span<const Vec3> simulated, double end);
 

@@ -115,7 +115,7 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
         warning_of_turned(mesh, turned, scale)})
     if (!warning.empty()) told["warnings"].push_back(warning);
   if (fields) {
-    told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated, wounds.reach_of_ends()), scale);
+    told["replay"] = figures_of(wounds.off(cuts.cuts(), positions, cuts.progress()), scale);
     if (const std::string other = differences(*fields, request.parameters); !other.empty())
       told["warnings"].push_back("the field of the replay is of another body than is simulated: " + other);
   }

@@ -38,12 +38,11 @@ void MeshScene::aim_at_cuts(WoundSurface& surface) const {
 
 std::optional<ReplayOff> MeshScene::replay_off() const {
   if (!simulated_ || !wounds_) return std::nullopt;
-  std::vector<Vec3> replayed(surface_->points.size()), simulated(surface_->points.size());
+  std::vector<Vec3> replayed(surface_->points.size());
   wounds_->positions(duration_, replayed);
-  simulated_->positions(duration_, simulated);
   std::vector<const Incision*> cuts;
   for (const auto& cut : cut_->cuts()) cuts.push_back(cut.get());
-  return cleft::replay_off(cuts, replayed, simulated, simulated_->reach_of_ends());
+  return simulated_->off(cuts, replayed, duration_);
 }
 
 void MeshScene::positions(double t, std::vector<Vec3>& out) const {

@@ -301,6 +301,12 @@ TEST(SimulatedWounds, TheGuardKeepsTrianglesFromTurningOver) {
   }
   EXPECT_GT(turned, 0u);
   EXPECT_LT(wounds.guard().changes().size(), wounds.places().size() / 20);
+  // What the guard changes is no error of a replay that is as simulated.
+  const double end = wounds.duration();
+  std::vector<Vec3> guarded(s.mesh->vertices().size());
+  wounds.positions(end, guarded);
+  EXPECT_EQ(wounds.off(s.list, positions_at(wounds, *s.mesh, end), end).displacement, 0);
+  EXPECT_GT(wounds.off(s.list, guarded, end).displacement, 0);
 }
 
 /// A body is cut beyond the ends of a path, so that there the mesh takes what is elsewhere in the body: that
