@@ -165,7 +165,7 @@ class GuardSearch {
   void renew(const std::vector<int>& numbers);
 
   /// Of the least jump: lips that pass each other by more are held back.
-  static constexpr double part_passed = 0.8;
+  static constexpr double part_passed = 0.75;
 
   const CutMesh& mesh_;
   double least_jump_;

@@ -121,12 +121,12 @@ class Surroundings::Front {
   /// Those among the vertices that were reached, and their neighbours.
   template <class TrianglesOf>
   void find_irregular(const TrianglesOf& triangles_of) {
-    std::vector<std::pair<int, double>> found;
+    std::vector<std::tuple<int, double, int>> found;  // a vertex, how many times, its neighbour
     for (const int v : around_.reached_) {
       const auto compare = [&](int next) {
         if (next == v || !around_.labels_[next].reached) return;
         if (const double times = stretch(v, next); times > Limits::irregular)
-          found.insert(found.end(), {{v, times}, {next, times}});
+          found.insert(found.end(), {{v, times, next}, {next, times, v}});
       };
       for (const int t : triangles_of(v))
         for (const int next : mesh_.triangle(t).vertex) compare(next);
@@ -134,8 +134,15 @@ class Surroundings::Front {
     }
     std::sort(found.begin(), found.end());
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (const auto [v, times] = found[i]; i + 1 == found.size() || found[i + 1].first != v)
-        around_.irregular_.push_back({mesh_.position(v), known(v).s, across(v), times, side(v)});
+      if (const auto [v, times, next] = found[i]; i + 1 == found.size() || std::get<0>(found[i + 1]) != v)
+        around_.irregular_.push_back({mesh_.position(v),
+                                      known(v).s,
+                                      across(v),
+                                      times,
+                                      side(v),
+                                      norm(mesh_.position(next) - mesh_.position(v)),
+                                      {known(v).steady, across(v)},
+                                      {known(next).steady, across(next)}});
   }
 
  private:

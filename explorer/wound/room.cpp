@@ -9,8 +9,7 @@ namespace cleft {
 namespace {
 
 /// Displacements are no more than the room over this: their change adds at most its inverse to the strain. Of
-/// a family: beyond the medial axis of a bend its field is the same displacement seen from another part of
-/// the path, and what is left of the jump is its error.
+/// a family: what is left of a jump is its error.
 constexpr double least_room = 4, least_room_of_family = 1.5;
 /// x - x^3 / (3 * 1.5^2) rises with a slope of 1 from 0, and is 1 with a slope of 0 at 1.5.
 constexpr double full_weight = 1.5;
@@ -23,12 +22,12 @@ constexpr double rise_in_length = 4;
 constexpr double resolved_part = 0.1;
 /// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
 /// medial axis on, by what agrees best with simulated arcs (tests/truth).
-constexpr double free_part = 0.5, free_part_of_family = 0.8;
+constexpr double free_part = 0.5;
 /// In how many equal pieces of the path the room next to it is sampled; of one that grows at each of its
 /// steps.
 constexpr int room_pieces = 512, room_pieces_of_growing = 128;
 /// Samples of the field, for its largest displacements.
-constexpr int nodes_along = 33, nodes_across = 33, samples_in_time = 3, samples_in_cut = 8;
+constexpr int nodes_along = 33, nodes_across = 33, samples_in_cut = 8;
 
 }  // namespace
 
@@ -93,19 +92,25 @@ LargestDisplacement::LargestDisplacement(const VaryingField& field, double lengt
   const double gone = std::min(length, cut.length);
   u_ = shape.domain(0), v_ = shape.domain(1);
   std::vector<double> samples(nodes_along * nodes_across);
+  in_time_.resize(samples.size());
   const auto sample = [&](double u, int j) {
     const double v = v_.front + (v_.back - v_.front) * j / (nodes_across - 1);
     const auto i = static_cast<int>(std::lround((u - u_.front) / (u_.back - u_.front) * (nodes_along - 1)));
     double& largest = samples[i * nodes_across + j];
-    for (int l = 1; l <= samples_in_time; ++l)
+    std::array<InTime, 2> sides{};
+    for (int l = 0; l < samples_in_time; ++l)
       for (const Side side : {Side::left, Side::right}) {
         if ((v < 0 && side == Side::right) || (v > 0 && side == Side::left)) continue;
-        const double t = gone * l / samples_in_time;
-        largest = std::max(largest, norm(field.displacement({u, v, 0}, side, t, u - cut.start)));
+        const double t = gone * (l + 1) / samples_in_time;
+        Vec3& d = sides[side == Side::right][l];
+        d = field.displacement({u, v, 0}, side, t, u - cut.start);
+        largest = std::max(largest, norm(d));
       }
+    return sides;
   };
   for (int j = 0; j < nodes_across; ++j) {
-    for (int i = 0; i < nodes_along; ++i) sample(u_.front + (u_.back - u_.front) * i / (nodes_along - 1), j);
+    for (int i = 0; i < nodes_along; ++i)
+      in_time_[i * nodes_across + j] = sample(u_.front + (u_.back - u_.front) * i / (nodes_along - 1), j);
     for (int k = 0; k < samples_in_cut; ++k) sample(cut.start + gone * (k + 0.5) / samples_in_cut, j);
   }
   // Between samples it may be more: each takes the largest next to it.
@@ -118,18 +123,30 @@ LargestDisplacement::LargestDisplacement(const VaryingField& field, double lengt
               std::max(largest_[i * nodes_across + j], samples[k * nodes_across + l]);
 }
 
-double LargestDisplacement::at(double u, double v) const {
-  if (largest_.empty()) return 0;
+template <class Value, class Sample>
+Value LargestDisplacement::between(double u, double v, const Sample& sample) const {
   const auto place = [](double x, const Interval& in, int nodes) {
     return std::clamp((x - in.front) / (in.back - in.front), 0., 1.) * (nodes - 1);
   };
   const double x = place(u, u_, nodes_along), y = place(v, v_, nodes_across);
   const int i = std::min(static_cast<int>(x), nodes_along - 2),
-            j = std::min(static_cast<int>(y), nodes_across - 2);
-  const double* c = &largest_[i * nodes_across + j];
-  const double low = c[0] + (y - j) * (c[1] - c[0]),
-               high = c[nodes_across] + (y - j) * (c[nodes_across + 1] - c[nodes_across]);
+            j = std::min(static_cast<int>(y), nodes_across - 2), at = i * nodes_across + j;
+  const Value low = sample(at) + (y - j) * (sample(at + 1) - sample(at)),
+              high = sample(at + nodes_across) +
+                     (y - j) * (sample(at + nodes_across + 1) - sample(at + nodes_across));
   return low + (x - i) * (high - low);
+}
+
+double LargestDisplacement::at(double u, double v) const {
+  if (largest_.empty()) return 0;
+  return between<double>(u, v, [&](int node) { return largest_[node]; });
+}
+
+LargestDisplacement::InTime LargestDisplacement::in_time(double u, double v) const {
+  InTime d{};
+  for (int l = 0; l < samples_in_time && !in_time_.empty(); ++l)
+    d[l] = between<Vec3>(u, v, [&](int node) { return in_time_[node][v > 0][l]; });
+  return d;
 }
 
 double LargestDisplacement::anywhere() const {
@@ -141,8 +158,7 @@ WoundRoom::WoundRoom(const Incision& incision, const VaryingField& field, double
       scale_(scale),
       length_(incision.path().length() * scale),
       cut_(field.shape().cut()),
-      least_room_(field.follows_shape() ? least_room_of_family : least_room),
-      free_part_(field.follows_shape() ? free_part_of_family : free_part) {
+      family_(field.follows_shape()) {
   const double largest = largest_.anywhere(), resolved = resolved_part * cut_.length;
   if (length_ < resolved && largest > 0)
     short_cut_ = std::min(1., length_ / resolved * LargestDisplacement(field, resolved).anywhere() / largest);
@@ -154,15 +170,14 @@ void WoundRoom::follow_path(const Incision& incision) {
   const int pieces = incision.extended_to() > 0 ? room_pieces_of_growing : room_pieces;
   for (const bool right : {false, true}) {
     bends_[right] = {};
-    for (int i = 0; i <= pieces; ++i) {
+    for (int i = 0; i <= pieces && !family_; ++i) {
       const double s = path.length() * i / pieces;
       bends_[right].push_back(s, path.room(s, right));
     }
     bends_[right].even_out();
     std::vector<Vec3> places;  // where the coordinates would strain the skin by too much
     for (const Surroundings::Irregular& one : incision.surroundings().irregular())
-      if (one.times * largest(one.s, one.across) * rise_in_length / cut_.length > most_strain &&
-          (one.side == Side::both || (one.side == Side::right) == right))
+      if (strain(one, path) > most_strain && (one.side == Side::both || (one.side == Side::right) == right))
         places.push_back(one.position);
     irregular_[right] = NearestPlace(std::move(places));
   }
@@ -192,13 +207,32 @@ double WoundRoom::largest(double s, double across) const {
   return largest_.at(canonical_place(s * scale_, length_, cut_).u, across * scale_);
 }
 
+/// By which coordinates that are further apart than their vertices may strain the skin between these: as a
+/// straight cut's displacement changes along it; of a family, whose field is that of this path, by no more
+/// than what its displacements at both are apart.
+double WoundRoom::strain(const Surroundings::Irregular& at, const ScalpelPath& path) const {
+  const double of_straight = at.times * largest(at.s, at.across) * rise_in_length / cut_.length;
+  if (!family_ || of_straight <= most_strain) return of_straight;
+  const auto in_space = [&](const Surroundings::Irregular::Steady& place) {
+    const PathFrame frame = path.at(place.s);
+    auto d = largest_.in_time(canonical_place(place.s * scale_, length_, cut_).u, place.across * scale_);
+    for (Vec3& one : d) one = one.x * frame.along + one.y * frame.across + one.z * frame.outward;
+    return d;
+  };
+  const auto here = in_space(at.here), there = in_space(at.there);
+  double apart = 0;
+  for (std::size_t l = 0; l < here.size(); ++l) apart = std::max(apart, norm(there[l] - here[l]));
+  return std::min(of_straight, apart / (scale_ * at.distance));
+}
+
 /// How far it is to the path's medial axis on one side.
 double WoundRoom::bend(const Place& at, bool right) const {
   return bends_[right].at(at.s) - std::abs(at.straight);
 }
 
 double WoundRoom::weight(const Place& at) const {
-  const double enough = full_weight * least_room_ * largest(at.s, at.across) / scale_;
+  const double enough =
+      full_weight * (family_ ? least_room_of_family : least_room) * largest(at.s, at.across) / scale_;
   if (!(enough > 0)) return 1;  // nothing moves
   double room = enough;
   for (const bool right : {false, true})
@@ -209,7 +243,7 @@ double WoundRoom::weight(const Place& at) const {
   const double x = full_weight * room / enough;
   const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);
   const double used = std::abs(at.straight) / (bend(at, at.straight > 0) + std::abs(at.straight));
-  const double y = std::clamp((used - free_part_) / (1 - free_part_), 0., 1.);
+  const double y = std::clamp((used - free_part) / (1 - free_part), 0., 1.);
   return std::min(in_room, 1 - y * y * (3 - 2 * y));
 }
 

@@ -56,16 +56,26 @@ class LargestDisplacement {
 
   double at(double u, double v) const;
   double anywhere() const;
+  /// The displacement with the blade at each of a few places of the way, linear between the samples.
+  static constexpr int samples_in_time = 3;
+  using InTime = std::array<Vec3, samples_in_time>;
+  InTime in_time(double u, double v) const;
 
  private:
+  /// Of samples at even distances.
+  template <class Value, class Sample>
+  Value between(double u, double v, const Sample& sample) const;
+
   Interval u_{}, v_{};
-  std::vector<double> largest_;  // [along][across], at even distances
+  std::vector<double> largest_;                 // [along][across]
+  std::vector<std::array<InTime, 2>> in_time_;  // likewise, of the left and the right side
 };
 
 /// The part of a field's displacement that a place beside a cut may take. Displacements are at most a quarter
 /// of the distance to where the coordinates jump: neighbours on both sides of a jump then move apart by no
 /// more than a quarter of their distance, whatever their coordinates are, and the skin's strain grows by no
-/// more.
+/// more. A family's displacements at both sides of a jump are mostly nearly the same, seen from two places of
+/// the path: of these only jumps count over which they differ.
 class WoundRoom {
  public:
   /// `scale`: mm per mesh unit.
@@ -87,10 +97,11 @@ class WoundRoom {
 
  private:
   double largest(double s, double across) const;
+  double strain(const Surroundings::Irregular& at, const ScalpelPath& path) const;
   double bend(const Place& at, bool right) const;
   void find_ends(const Incision& incision);
 
-  std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right
+  std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right; not of a family
   std::array<NearestPlace, 2> irregular_;
   /// An end of the path, around which both sides hang together, and the lesser of its rooms.
   struct End {
@@ -102,7 +113,7 @@ class WoundRoom {
   double short_cut_ = 1;
   double scale_, length_;  // mm per mesh unit; of the path as the field was sampled for it, mm
   CanonicalCut cut_;
-  double least_room_, free_part_;  // of the kind of field
+  bool family_;
 };
 
 }  // namespace cleft

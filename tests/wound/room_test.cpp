@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -93,6 +94,33 @@ TEST(WoundRoom, OfBothSidesIsTheSameAroundTheEndsOfACut) {
     const double far = end.across.x * std::cos(s / radius) > 0 ? 20 : -20;
     EXPECT_EQ(room.weight({end.position + far * end.across, s, far, far, far < 0 ? Side::left : Side::right}),
               1);
+  }
+}
+
+/// At the centre of an arc the nearest place of the path jumps. A straight cut's field moves nothing there; a
+/// family's as far as what it says of both places is nearly the same, in space.
+TEST(WoundRoom, OfAFamilyIsLittleOnlyWhereItsDisplacementsDiffer) {
+  constexpr double radius = 10;
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 60; ++i)
+    points.push_back({radius * std::cos(i * 0.04), radius * std::sin(i * 0.04), 0});
+  const Incision cut(testing::grid(60, 60, -30, -30, 1), testing::path_through(points, testing::up, 3));
+  const double s = cut.path().length() / 2;
+  const PathFrame middle = cut.path().at(s);
+  const auto weight = [&](const VaryingField& field, double inward) {
+    const WoundRoom room(cut, field, 1);
+    return room.weight({middle.position + inward * middle.across, s, inward, inward, Side::right});
+  };
+  for (const bool wide : {false, true}) {
+    const Field field = testing::opening_field({-15, 30, 3}, 60, 40, 8, wide ? 4 : 0.4);
+    const VaryingField family(std::make_shared<const Field>(field),
+                              {{s, std::make_shared<const Field>(field), {}, middle.along}});
+    EXPECT_EQ(weight(field, radius), 0);
+    if (wide)
+      EXPECT_LT(weight(family, radius), 0.1);
+    else
+      EXPECT_EQ(weight(family, radius), 1);
+    EXPECT_GT(weight(family, radius / 2), 0.9);
   }
 }
 
