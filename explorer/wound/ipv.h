@@ -9,8 +9,9 @@
 // first), never from space: a vertex opposite the cut but far along the surface does not move.
 //
 // Where the path bends tighter than the patch is wide, or comes back to itself, and where the skin folds, the
-// coordinates jump from one vertex to the next: displacements decrease to zero before. The coordinates of a
-// vertex depend on its side of the wound, not on the position of the blade.
+// coordinates jump from one vertex to the next: displacements that would jump with them decrease to zero
+// before (room.h). The coordinates of a vertex depend on its side of the wound, not on the position of the
+// blade.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +44,7 @@ struct ActiveVertex {
   double s = 0;                 ///< mm along the path
   double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
   double weight =
-      1;  ///< 1 in the patch, falling to 0 over a quarter of its width outside it, and inside bends
+      1;  ///< 1 in the patch, falling to 0 over a quarter of its width outside it; less in little room
   bool on_cut = false;  ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
   OpenedTo opened_to = {};
 
