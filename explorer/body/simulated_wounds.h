@@ -16,7 +16,6 @@ namespace cleft {
 
 /// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest
 /// one, and of the vectors from lip to lip along the cuts, over the largest opening. Lengths in mesh units.
-/// Vertices within `end` of the ends of cuts do not count.
 struct ReplayOff {
   double largest = 0, displacement = 0;
   double gape = 0, opening = 0;
@@ -78,6 +77,7 @@ class SimulatedWounds {
 /// Triangles of the skin that are turned over (guard_search.h). `positions`: of all vertices.
 std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> positions);
 
+/// Vertices within `end` of the ends of cuts do not count, mesh units.
 ReplayOff replay_off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
                      std::span<const Vec3> simulated, double end);
 

@@ -164,7 +164,8 @@ class GuardSearch {
   std::vector<int> even_out(std::vector<int> reduced, double strain);
   void renew(const std::vector<int>& numbers);
 
-  /// Of the least jump: lips that pass each other by more are held back.
+  /// Of the least jump: lips that pass each other by more are held back. The rest is for what they do between
+  /// two looks.
   static constexpr double part_passed = 0.75;
 
   const CutMesh& mesh_;

@@ -135,14 +135,14 @@ class Surroundings::Front {
     std::sort(found.begin(), found.end());
     for (std::size_t i = 0; i < found.size(); ++i)
       if (const auto [v, times, next] = found[i]; i + 1 == found.size() || std::get<0>(found[i + 1]) != v)
-        around_.irregular_.push_back({mesh_.position(v),
-                                      known(v).s,
-                                      across(v),
-                                      times,
-                                      side(v),
-                                      norm(mesh_.position(next) - mesh_.position(v)),
-                                      {known(v).steady, across(v)},
-                                      {known(next).steady, across(next)}});
+        around_.irregular_.push_back(
+            {mesh_.position(v),
+             known(v).s,
+             across(v),
+             times,
+             side(v),
+             known(v).steady,
+             {known(next).steady, across(next), norm(mesh_.position(next) - mesh_.position(v))}});
   }
 
  private:

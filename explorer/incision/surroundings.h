@@ -39,10 +39,10 @@ class Surroundings {
     double s, across;  ///< its coordinates
     double times;      ///< how much further apart they are
     Side side;         ///< of the path; both: it counts for both
-    double distance;   ///< to that neighbour
-    struct Steady {
-      double s, across;  ///< coordinates, with ScalpelPath::steady_place
-    } here, there;       ///< of the vertex and of that neighbour
+    double steady;     ///< ScalpelPath::steady_place of it
+    struct Neighbour {
+      double steady, across, distance;
+    } neighbour;  ///< that whose coordinates are so much further apart
   };
   const std::vector<Irregular>& irregular() const { return irregular_; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cleft {
 
@@ -166,22 +167,33 @@ WoundRoom::WoundRoom(const Incision& incision, const VaryingField& field, double
 }
 
 void WoundRoom::follow_path(const Incision& incision) {
+  if (!family_) find_bends(incision);
+  find_jumps(incision);
+  find_ends(incision);
+}
+
+void WoundRoom::find_bends(const Incision& incision) {
   const ScalpelPath& path = incision.path();
   const int pieces = incision.extended_to() > 0 ? room_pieces_of_growing : room_pieces;
   for (const bool right : {false, true}) {
     bends_[right] = {};
-    for (int i = 0; i <= pieces && !family_; ++i) {
+    for (int i = 0; i <= pieces; ++i) {
       const double s = path.length() * i / pieces;
       bends_[right].push_back(s, path.room(s, right));
     }
     bends_[right].even_out();
-    std::vector<Vec3> places;  // where the coordinates would strain the skin by too much
-    for (const Surroundings::Irregular& one : incision.surroundings().irregular())
-      if (strain(one, path) > most_strain && (one.side == Side::both || (one.side == Side::right) == right))
-        places.push_back(one.position);
-    irregular_[right] = NearestPlace(std::move(places));
   }
-  find_ends(incision);
+}
+
+/// Where the coordinates would strain the skin by too much.
+void WoundRoom::find_jumps(const Incision& incision) {
+  std::array<std::vector<Vec3>, 2> places;
+  for (const Surroundings::Irregular& one : incision.surroundings().irregular()) {
+    if (strain(one, incision.path()) <= most_strain) continue;
+    for (const bool right : {false, true})
+      if (one.side == Side::both || (one.side == Side::right) == right) places[right].push_back(one.position);
+  }
+  for (const bool right : {false, true}) irregular_[right] = NearestPlace(std::move(places[right]));
 }
 
 /// Of a path that grows, its start: what is ahead of it changes with each of its steps.
@@ -213,16 +225,17 @@ double WoundRoom::largest(double s, double across) const {
 double WoundRoom::strain(const Surroundings::Irregular& at, const ScalpelPath& path) const {
   const double of_straight = at.times * largest(at.s, at.across) * rise_in_length / cut_.length;
   if (!family_ || of_straight <= most_strain) return of_straight;
-  const auto in_space = [&](const Surroundings::Irregular::Steady& place) {
-    const PathFrame frame = path.at(place.s);
-    auto d = largest_.in_time(canonical_place(place.s * scale_, length_, cut_).u, place.across * scale_);
+  const auto in_space = [&](double s, double across) {
+    const PathFrame frame = path.at(s);
+    auto d = largest_.in_time(canonical_place(s * scale_, length_, cut_).u, across * scale_);
     for (Vec3& one : d) one = one.x * frame.along + one.y * frame.across + one.z * frame.outward;
     return d;
   };
-  const auto here = in_space(at.here), there = in_space(at.there);
+  const auto here = in_space(at.steady, at.across),
+             there = in_space(at.neighbour.steady, at.neighbour.across);
   double apart = 0;
   for (std::size_t l = 0; l < here.size(); ++l) apart = std::max(apart, norm(there[l] - here[l]));
-  return std::min(of_straight, apart / (scale_ * at.distance));
+  return std::min(of_straight, apart / (scale_ * at.neighbour.distance));
 }
 
 /// How far it is to the path's medial axis on one side.

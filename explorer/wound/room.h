@@ -47,8 +47,8 @@ struct CanonicalPlace {
 };
 CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut, double opens_on = 0);
 
-/// The largest displacement of a field at each place of the skin while the blade goes the given length, mm;
-/// sampled, and of two places next to each other the larger one.
+/// The displacements of a field at each place of the skin while the blade goes the given length, mm: the
+/// largest one, sampled, and of two places next to each other the larger one.
 class LargestDisplacement {
  public:
   LargestDisplacement() = default;  ///< of nothing: 0
@@ -99,6 +99,8 @@ class WoundRoom {
   double largest(double s, double across) const;
   double strain(const Surroundings::Irregular& at, const ScalpelPath& path) const;
   double bend(const Place& at, bool right) const;
+  void find_bends(const Incision& incision);
+  void find_jumps(const Incision& incision);
   void find_ends(const Incision& incision);
 
   std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right; not of a family

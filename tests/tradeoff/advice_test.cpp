@@ -95,7 +95,7 @@ TEST(Advice, LessErrorCostsMore) {
     EXPECT_GE(nodes(quadratic), nodes_of_quadratic);
     seconds = e.seconds, nodes_of_linear = nodes(linear), nodes_of_quadratic = nodes(quadratic);
   }
-  // The less error, the fewer nodes quadratic elements need over linear ones.
+  // Linear elements need fewer nodes for a large error, quadratic ones for a small one.
   EXPECT_GT(nodes(cheapest(models, 0.3, ElementOrder::quadratic)),
             4 * nodes(cheapest(models, 0.3, ElementOrder::linear)));
   const Setting chosen = cheapest(models, 0.05, ElementOrder::quadratic);
